@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <thrust/for_each.h>
+#include <thrust/iterator/counting_iterator.h>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+
+namespace deferred_shade::detail {
+
+/// A wave of n requests cut into blocks of equal size, the last one excepted; one worker owns a
+/// block at a time.
+///
+/// Blocks are large enough that a row of counters per block, `shaders` + 1 of them, is a sixteenth
+/// of the ids that it counts, and there are never more than 1024 of them.
+class block_partition {
+ public:
+  constexpr block_partition(std::size_t n, std::size_t shaders) noexcept
+      : n_(n),
+        size_((std::max({std::size_t{16384}, 16 * (shaders + 1), (n + 1023) / 1024}) + 63) / 64 *
+              64),
+        count_((n + size_ - 1) / size_) {}
+
+  constexpr std::size_t size() const noexcept { return size_; }
+  constexpr std::size_t count() const noexcept { return count_; }
+  constexpr std::size_t begin(std::size_t block) const noexcept { return block * size_; }
+  constexpr std::size_t end(std::size_t block) const noexcept {
+    return std::min(n_, (block + 1) * size_);
+  }
+
+ private:
+  std::size_t n_;
+  std::size_t size_;
+  std::size_t count_;
+};
+
+/// Calls `f(block)` for every block, spread over the workers of `exec`.
+template <class Policy, class Function>
+void for_each_block(Policy const& exec, block_partition const& blocks, Function f) {
+  thrust::for_each_n(exec, thrust::counting_iterator<std::uint32_t>(0), blocks.count(), f);
+}
+
+/// Turns counts into places: `counts[b * columns + k]`, the number of elements of column k in
+/// block b, becomes the position of the first of them when elements are ordered by column, then by
+/// block. `offsets[k]` becomes the position of the first element of column k.
+inline void scan_columns(block_partition const& blocks, std::uint32_t columns,
+                         std::uint32_t* counts, std::uint32_t* offsets) {
+  std::fill_n(offsets, columns, 0U);
+  for (std::size_t b = 0; b < blocks.count(); ++b) {
+    std::uint32_t const* const row = counts + b * columns;
+    for (std::uint32_t k = 0; k < columns; ++k) offsets[k] += row[k];
+  }
+  std::exclusive_scan(offsets, offsets + columns, offsets, 0U);
+  // `offsets` runs ahead as each block takes its share, and ends as the start of the next column.
+  for (std::size_t b = 0; b < blocks.count(); ++b) {
+    std::uint32_t* const row = counts + b * columns;
+    for (std::uint32_t k = 0; k < columns; ++k) {
+      std::uint32_t const count = row[k];
+      row[k] = offsets[k];
+      offsets[k] += count;
+    }
+  }
+  std::copy_backward(offsets, offsets + columns - 1, offsets + columns);
+  offsets[0] = 0;
+}
+
+}  // namespace deferred_shade::detail

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+/// Marks a function that runs on the host and, where a CUDA compiler is at work, on the device.
+#ifdef __CUDACC__
+#define DEFERRED_SHADE_HOST_DEVICE __host__ __device__
+#else
+#define DEFERRED_SHADE_HOST_DEVICE
+#endif
+
+/// Goes before a host/device function that calls a user's function: lets that one be host only,
+/// without a warning from nvcc, as long as it is called on the host alone.
+#ifdef __CUDACC__
+#define DEFERRED_SHADE_EXEC_CHECK_DISABLE _Pragma("nv_exec_check_disable")
+#else
+#define DEFERRED_SHADE_EXEC_CHECK_DISABLE
+#endif

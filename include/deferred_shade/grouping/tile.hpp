@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <thrust/for_each.h>
+#include <thrust/iterator/counting_iterator.h>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include <deferred_shade/types.hpp>
+
+namespace deferred_shade {
+
+/// Sorts a tile with a stable counting sort: see local_sort_then_dispatch.
+struct counting {
+  /// Requests in a tile. Their indices and ids fit in the first- and second-level cache of a core.
+  static constexpr request_index tile = 8192;
+};
+
+/// Sorts a tile with a bitonic sorting network: see local_sort_then_dispatch.
+struct bitonic {
+  /// Requests in a tile, a power of two: the thread block of Hoberock et al., HPG 2009.
+  static constexpr request_index tile = 256;
+};
+
+namespace detail {
+
+/// Calls `f(first, size)` for every tile of `n` requests, spread over the workers of `exec`.
+template <request_index Tile, class Policy, class Function>
+void for_each_tile(Policy const& exec, request_index n, Function f) {
+  std::size_t const tiles = (std::size_t{n} + Tile - 1) / Tile;
+  thrust::for_each_n(exec, thrust::counting_iterator<request_index>(0), tiles,
+                     [n, f](request_index t) {
+                       request_index const first = t * Tile;
+                       f(first, std::min(Tile, n - first));
+                     });
+}
+
+/// The requests of one tile in the order of their shaders: `order[offsets[k]]` and what follows, up
+/// to `offsets[k + 1]`, are the requests of shader k, as distances from the first of the tile.
+template <shader_id Shaders, request_index Tile>
+struct sorted_tile {
+  static_assert(Tile <= 65536, "a position in a tile has 16 bits");
+  std::uint16_t order[Tile];
+  std::uint32_t offsets[Shaders + 2];
+};
+
+/// Sorts the `size` requests from `first` on by a stable counting sort.
+template <shader_id Shaders, request_index Tile, class Ids>
+void counting_sort(Ids const& ids, request_index first, request_index size,
+                   sorted_tile<Shaders, Tile>& result) {
+  // next[k + 1] counts shader k, then becomes the place of its next request.
+  std::uint32_t next[Shaders + 2] = {};
+  for (request_index i = 0; i < size; ++i) ++next[shader_of(ids, first + i, Shaders) + 1];
+  for (shader_id k = 0; k <= Shaders; ++k) next[k + 1] += next[k];
+  std::copy_n(next, Shaders + 2, result.offsets);
+  for (request_index i = 0; i < size; ++i) {
+    result.order[next[shader_of(ids, first + i, Shaders)]++] = static_cast<std::uint16_t>(i);
+  }
+}
+
+/// Sorts `Size` keys, a power of two, by Batcher's bitonic network ("Sorting networks and their
+/// applications", AFIPS 1968): the same comparisons for every input, so that lanes never diverge.
+template <std::size_t Size>
+void bitonic_sort(std::uint32_t (&keys)[Size]) {
+  static_assert((Size & (Size - 1)) == 0, "a bitonic network sorts a power of two of keys");
+  for (std::size_t run = 2; run <= Size; run *= 2) {
+    for (std::size_t distance = run / 2; distance > 0; distance /= 2) {
+      for (std::size_t base = 0; base < Size; base += 2 * distance) {
+        bool const ascending = (base & run) == 0;
+        for (std::size_t i = base; i < base + distance; ++i) {
+          std::uint32_t const low = std::min(keys[i], keys[i + distance]);
+          std::uint32_t const high = std::max(keys[i], keys[i + distance]);
+          keys[i] = ascending ? low : high;
+          keys[i + distance] = ascending ? high : low;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace detail
+}  // namespace deferred_shade

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <type_traits>
+#include <utility>
+
+#include <deferred_shade/config.hpp>
+#include <deferred_shade/shader_table.hpp>
+#include <deferred_shade/types.hpp>
+
+namespace deferred_shade {
+namespace detail {
+
+DEFERRED_SHADE_EXEC_CHECK_DISABLE
+template <class Source>
+DEFERRED_SHADE_HOST_DEVICE decltype(auto) load(Source const& source, request_index i) {
+  if constexpr (std::is_invocable_v<Source const&, request_index>) {
+    return source(i);
+  } else {
+    return source[i];
+  }
+}
+
+DEFERRED_SHADE_EXEC_CHECK_DISABLE
+template <class Sink, class Result>
+DEFERRED_SHADE_HOST_DEVICE void store(Sink const& sink, request_index i, Result const& result) {
+  if constexpr (std::is_invocable_v<Sink const&, request_index, Result const&>) {
+    sink(i, result);
+  } else {
+    sink[i] = result;
+  }
+}
+
+}  // namespace detail
+
+/// A pure function from a request to its result, `Result operator()(Request const&) const`,
+/// together with where requests come from and where results go.
+///
+/// It is an index shader, so it goes wherever one goes; and because its memory traffic is apart
+/// from its arithmetic, a schedule is free to load a group of requests, run them side by side and
+/// store the results. `Source` is called as `source(i)` or read as `source[i]`; `Sink` is called as
+/// `sink(i, result)` or written as `sink[i] = result`. A pointer does for both.
+template <class Source, class Function, class Sink>
+struct record_shader {
+  Source source;
+  Function function;
+  Sink sink;
+
+  /// What the function is given, by value.
+  using request_type =
+      std::decay_t<decltype(detail::load(std::declval<Source const&>(), request_index{}))>;
+  /// What the function returns.
+  using result_type = std::decay_t<std::invoke_result_t<Function const&, request_type const&>>;
+
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
+  DEFERRED_SHADE_HOST_DEVICE void operator()(request_index i) const {
+    request_type const request = detail::load(source, i);
+    detail::store(sink, i, function(request));
+  }
+};
+
+/// A table of record shaders that share one source and one sink.
+///
+///     struct matte { rgb operator()(hit const& h) const; };
+///     auto shaders = deferred_shade::record_shaders(hits.data(), radiance.data(), matte{},
+///     glass{});
+template <class Source, class Sink, class... Functions>
+auto record_shaders(Source source, Sink sink, Functions... functions) {
+  return shader_table{
+      record_shader<Source, Functions, Sink>{source, std::move(functions), sink}...};
+}
+
+/// Whether `Shader` is a record_shader.
+template <class Shader>
+inline constexpr bool is_record_shader = false;
+template <class Source, class Function, class Sink>
+inline constexpr bool is_record_shader<record_shader<Source, Function, Sink>> = true;
+
+}  // namespace deferred_shade

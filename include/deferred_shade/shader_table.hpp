@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cuda/std/tuple>
+#include <type_traits>
+#include <utility>
+
+#include <deferred_shade/config.hpp>
+#include <deferred_shade/types.hpp>
+
+namespace deferred_shade {
+
+/// The shaders that requests can name: the id of a shader is its position.
+///
+/// A shader is a callable on a request's index, `void operator()(request_index) const`, that is
+/// cheap to copy: it holds views of the renderer's memory, not the memory. It runs concurrently
+/// with other requests, must not throw, and may write whatever belongs to its own request.
+///
+///     deferred_shade::shader_table shaders{matte{film, hits}, glass{film, hits}};
+template <class... Shaders>
+class shader_table {
+  static_assert(sizeof...(Shaders) > 0, "a shader table holds at least one shader");
+  static_assert((std::is_invocable_v<Shaders const&, request_index> && ...),
+                "a shader is called as shader(request_index) and its operator() is const");
+
+ public:
+  constexpr explicit shader_table(Shaders... shaders) : shaders_(std::move(shaders)...) {}
+
+  /// The number of shaders.
+  static constexpr shader_id size() noexcept { return static_cast<shader_id>(sizeof...(Shaders)); }
+
+  /// The shader at position `Id`.
+  template <shader_id Id>
+  DEFERRED_SHADE_HOST_DEVICE constexpr auto const& get() const noexcept {
+    return ::cuda::std::get<Id>(shaders_);
+  }
+
+  /// Runs shader `id` on request `i`; does nothing where the table has no such shader.
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
+  DEFERRED_SHADE_HOST_DEVICE void run(shader_id id, request_index i) const {
+    run_among<0, size()>(id, i);
+  }
+
+  /// Calls `f(id, shader)` for every shader in order; `id` is a std::integral_constant.
+  template <class Function>
+  void for_each(Function&& f) const {
+    for_each(f, std::make_integer_sequence<shader_id, size()>());
+  }
+
+ private:
+  // Compilers turn the folded comparisons into one switch. The halving above it keeps the depth of
+  // a fold, which clang limits to 256, apart from the size of the table.
+  static constexpr shader_id leaf_size = 32;
+
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
+  template <shader_id First, shader_id Last>
+  DEFERRED_SHADE_HOST_DEVICE void run_among(shader_id id, request_index i) const {
+    if constexpr (Last - First <= leaf_size) {
+      run_leaf<First>(id, i, std::make_integer_sequence<shader_id, Last - First>());
+    } else {
+      constexpr shader_id middle = First + (Last - First) / 2;
+      if (id < middle) {
+        run_among<First, middle>(id, i);
+      } else {
+        run_among<middle, Last>(id, i);
+      }
+    }
+  }
+
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
+  template <shader_id First, shader_id... Offsets>
+  DEFERRED_SHADE_HOST_DEVICE void run_leaf(shader_id id, request_index i,
+                                           std::integer_sequence<shader_id, Offsets...>) const {
+    (void)((id == First + Offsets && (static_cast<void>(get<First + Offsets>()(i)), true)) || ...);
+  }
+
+  template <class Function, shader_id... Ids>
+  void for_each(Function& f, std::integer_sequence<shader_id, Ids...>) const {
+    (f(std::integral_constant<shader_id, Ids>{}, get<Ids>()), ...);
+  }
+
+  ::cuda::std::tuple<Shaders...> shaders_;
+};
+
+template <class... Shaders>
+shader_table(Shaders...) -> shader_table<Shaders...>;
+
+}  // namespace deferred_shade

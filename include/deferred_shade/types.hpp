@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <type_traits>
+
+#include <deferred_shade/config.hpp>
+
+namespace deferred_shade {
+
+/// The position of a request in its wave, 0 to n - 1: what a shader is called with.
+using request_index = std::uint32_t;
+
+/// The position of a shader in its table. An id at or above the size of the table names no shader.
+using shader_id = std::uint32_t;
+
+/// The most requests that one wave can hold.
+inline constexpr std::size_t max_requests = std::numeric_limits<request_index>::max();
+
+/// A number of requests that lies in memory where `shade` runs: read when the wave runs, not when
+/// it is submitted. `maximum` is what the renderer guarantees; work space is sized by it.
+template <class Integer>
+struct device_count {
+  static_assert(std::is_integral_v<Integer>, "device_count points at an integer");
+  Integer const* pointer;
+  std::size_t maximum;
+};
+
+template <class Integer>
+device_count(Integer*, std::size_t) -> device_count<std::remove_const_t<Integer>>;
+
+/// The requests of a wave, grouped by shader: a view of memory that a workspace owns.
+///
+/// `permutation[offsets[k]]` to `permutation[offsets[k + 1] - 1]` are the requests of shader k in
+/// the order in which they came; `offsets` holds one entry more than the table has shaders. What
+/// `permutation` holds from `offsets[shaders]` on is unspecified.
+struct grouping {
+  request_index const* permutation;
+  request_index const* offsets;
+};
+
+/// The shader that `ids` names for request `i`, or `shaders` where it names none.
+///
+/// `Ids` is a random-access iterator over an integer or an enumeration of 8 to 32 bits. A negative
+/// id names no shader.
+template <class Ids>
+DEFERRED_SHADE_HOST_DEVICE inline shader_id shader_of(Ids const& ids, request_index i,
+                                                      shader_id shaders) {
+  using traits = std::iterator_traits<Ids>;
+  using value_type = typename traits::value_type;
+  static_assert(std::is_integral_v<value_type> || std::is_enum_v<value_type>,
+                "a shader id is an integer or an enumeration");
+  static_assert(sizeof(value_type) <= sizeof(shader_id), "a shader id has at most 32 bits");
+  value_type const value = ids[static_cast<typename traits::difference_type>(i)];
+  auto const id = static_cast<shader_id>(value);
+  return id < shaders ? id : shaders;
+}
+
+}  // namespace deferred_shade

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include <deferred_shade/blocks.hpp>
+#include <deferred_shade/types.hpp>
+
+namespace deferred_shade {
+
+/// A request to a workspace for an array of `count` elements of a trivial type.
+template <class T>
+struct elements {
+  static_assert(std::is_trivial_v<T>,
+                "a workspace holds trivial types, which it leaves uninitialised");
+  explicit elements(std::size_t n) noexcept : count(n) {}
+  std::size_t count;
+};
+
+/// Memory that schedules work in. It grows and never shrinks, so that a renderer that keeps one
+/// does not allocate once the largest wave has passed, or from the start after `reserve`.
+///
+/// One workspace serves one `shade` at a time. `Allocator` is any standard allocator; the memory it
+/// gives must be accessible where `shade` runs.
+///
+///     deferred_shade::workspace scratch{thrust::omp::par};
+///     deferred_shade::workspace mine{my_allocator<std::byte>{pool}};
+template <class Allocator = std::allocator<std::byte>>
+class workspace {
+  struct alignas(128) line {
+    std::byte bytes[128];
+  };
+  using traits = typename std::allocator_traits<Allocator>::template rebind_traits<line>;
+
+ public:
+  workspace() = default;
+  explicit workspace(Allocator const& allocator) : allocator_(allocator) {}
+
+  /// A workspace for the machine that `policy`, a Thrust execution policy, runs on.
+  template <class Policy,
+            class = std::enable_if_t<std::is_class_v<Policy> &&
+                                     !std::is_convertible_v<Policy const&, Allocator>>>
+  explicit workspace(Policy const&) {}
+
+  workspace(workspace&& other) noexcept
+      : allocator_(std::move(other.allocator_)),
+        data_(std::exchange(other.data_, {})),
+        lines_(std::exchange(other.lines_, 0)) {}
+  workspace& operator=(workspace other) noexcept {
+    std::swap(allocator_, other.allocator_);
+    std::swap(data_, other.data_);
+    std::swap(lines_, other.lines_);
+    return *this;
+  }
+  ~workspace() { release(); }
+
+  /// Grows to what any schedule of the library takes for `n` requests over `shaders` shaders.
+  /// Throws what the allocator throws.
+  void reserve(std::size_t n, std::size_t shaders) { grow(bytes_for(n, shaders)); }
+
+  /// The bytes that `reserve(n, shaders)` makes sure of: what `sort_then_dispatch` takes, since no
+  /// other schedule takes more. With fewer than 256 shaders it is about 14 bytes per request.
+  static constexpr std::size_t bytes_for(std::size_t n, std::size_t shaders) noexcept {
+    detail::block_partition const blocks(n, shaders);
+    std::size_t const key = shaders <= 0xff ? 1 : shaders <= 0xffff ? 2 : 4;
+    std::size_t const requests =
+        (n + sizeof(line)) * (2 * (key + sizeof(request_index)) + sizeof(request_index));
+    std::size_t const counters = (blocks.count() + 1) * (shaders + 2) * sizeof(request_index);
+    return requests + counters + 6 * sizeof(line);
+  }
+
+  /// The bytes held.
+  std::size_t capacity() const noexcept { return lines_ * sizeof(line); }
+
+  /// Arrays for one schedule to work in, one for each argument, each aligned to 128 bytes.
+  ///
+  /// The arrays are uninitialised and valid until the next call: a schedule asks once for all that
+  /// it needs. Throws what the allocator throws, and stays usable.
+  ///
+  ///     auto const [keys, offsets] = scratch.take(elements<std::uint8_t>(n), elements<int>(m));
+  template <class... T>
+  std::tuple<T*...> take(elements<T>... arrays) {
+    grow((bytes(arrays) + ... + 0));
+    std::size_t used = 0;
+    return {place(arrays, used)...};  // braces: from left to right
+  }
+
+  /// Gives the memory back.
+  void release() noexcept {
+    if (lines_ != 0) traits::deallocate(allocator_, data_, lines_);
+    data_ = {};
+    lines_ = 0;
+  }
+
+ private:
+  template <class T>
+  static constexpr std::size_t bytes(elements<T> array) noexcept {
+    return (array.count * sizeof(T) + sizeof(line) - 1) / sizeof(line) * sizeof(line);
+  }
+
+  template <class T>
+  T* place(elements<T> array, std::size_t& used) noexcept {
+    auto* const first = reinterpret_cast<std::byte*>(raw(data_)) + used;
+    used += bytes(array);
+    return reinterpret_cast<T*>(first);
+  }
+
+  template <class Pointer>
+  static line* raw(Pointer const& p) noexcept {
+    if constexpr (std::is_pointer_v<Pointer>) {
+      return p;
+    } else {
+      return p.get();
+    }
+  }
+
+  // Frees first: the memory of two waves need not fit side by side.
+  void grow(std::size_t bytes) {
+    std::size_t const lines = (bytes + sizeof(line) - 1) / sizeof(line);
+    if (lines <= lines_) return;
+    release();
+    data_ = traits::allocate(allocator_, lines);
+    lines_ = lines;
+  }
+
+  typename traits::allocator_type allocator_{};
+  typename traits::pointer data_{};
+  std::size_t lines_ = 0;
+};
+
+namespace detail {
+
+template <class T, class = void>
+struct allocator_for {
+  using type = std::allocator<std::byte>;
+};
+template <class T>
+struct allocator_for<T, std::void_t<typename T::value_type>> {
+  using type = T;
+};
+
+}  // namespace detail
+
+// From an allocator, or from a Thrust execution policy.
+template <class T>
+workspace(T const&) -> workspace<typename detail::allocator_for<T>::type>;
+
+}  // namespace deferred_shade

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+// One include for the tests: Catch2 version 3 where it is installed, else version 2.13.
+#if __has_include(<catch2/catch_all.hpp>)
+#include <catch2/catch_all.hpp>
+#else
+#include <catch2/catch.hpp>
+#endif
+
+// Version 2 has the matchers in namespace Catch, version 3 in Catch::Matchers.
+#if defined(CATCH_VERSION_MAJOR) && CATCH_VERSION_MAJOR >= 3
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+#else
+using Catch::WithinAbs;
+using Catch::WithinRel;
+#endif
