@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <deferred_shade/schedule/compact_then_dispatch.hpp>
+
+#include <deferred_shade/dispatch/explicit.hpp>
+#include <deferred_shade/dispatch/implicit.hpp>
+
+#include "../support/schedule_properties.hpp"
+
+namespace {
+
+using with_explicit = test::ds::compact_then_dispatch<>;
+using with_implicit = test::ds::compact_then_dispatch<test::ds::implicit_serialization>;
+
+}  // namespace
+
+TEMPLATE_LIST_TEST_CASE("compact_then_dispatch, explicit, runs every request once", "[schedule]",
+                        test::backends) {
+  test::check_schedule<TestType, with_explicit>();
+}
+
+TEMPLATE_LIST_TEST_CASE("compact_then_dispatch, implicit, runs every request once", "[schedule]",
+                        test::backends) {
+  test::check_schedule<TestType, with_implicit>();
+}
+
+TEST_CASE("compact_then_dispatch keeps the order within a shader", "[schedule]") {
+  test::check_stable<with_explicit>();
+  test::check_stable<with_implicit>();
+}

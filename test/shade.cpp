@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <deferred_shade/shade.hpp>
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "support/every_schedule.hpp"
+#include "support/schedule_properties.hpp"
+
+namespace ds = deferred_shade;
+
+namespace {
+
+/// The message of the exception of type `Exception` that `f` throws.
+template <class Exception, class Function>
+std::string message_of(Function const& f) {
+  try {
+    f();
+  } catch (Exception const& error) {
+    return error.what();
+  }
+  return "nothing was thrown";
+}
+
+struct counting_shader {
+  int* calls;
+  void operator()(ds::request_index) const { ++*calls; }
+};
+
+}  // namespace
+
+TEST_CASE("shade refuses a count that no wave has", "[shade]") {
+  int calls = 0;
+  std::uint8_t const ids[1] = {0};
+  ds::workspace scratch{thrust::cpp::par};
+  auto const shade = [&](auto n) {
+    return [&, n] {
+      ds::shade(thrust::cpp::par, ds::sort_then_dispatch<>{}, n, ids,
+                ds::shader_table{counting_shader{&calls}}, scratch);
+    };
+  };
+  CHECK(message_of<std::invalid_argument>(shade(-5)) ==
+        "deferred_shade::shade: n is -5, and a number of requests is not negative");
+  std::string const too_long =
+      "deferred_shade::shade: n is 4294967296, and a wave holds at most 4294967295 requests: their "
+      "indices have 32 bits";
+  CHECK(message_of<std::length_error>(shade(std::size_t{1} << 32)) == too_long);
+  CHECK(message_of<std::length_error>(shade(std::int64_t{1} << 32)) == too_long);
+  CHECK_THROWS_AS(shade(std::numeric_limits<std::int64_t>::min())(), std::invalid_argument);
+
+  CHECK(message_of<std::invalid_argument>(
+            shade(ds::device_count{static_cast<int const*>(nullptr), 1})) ==
+        "deferred_shade::shade: the pointer of device_count is null");
+  int const three = 3;
+  CHECK(message_of<std::length_error>(shade(ds::device_count{&three, 2})) ==
+        "deferred_shade::shade: device_count points at 3 requests, above its maximum of 2");
+  int const negative = -1;
+  CHECK_THROWS_AS(shade(ds::device_count{&negative, 2})(), std::invalid_argument);
+
+  CHECK(calls == 0);
+  CHECK(scratch.capacity() == 0);
+  shade(1)();
+  CHECK(calls == 1);
+}
+
+TEST_CASE("shade refuses null ids, unless there is no request", "[shade]") {
+  int calls = 0;
+  std::uint8_t const* const ids = nullptr;
+  ds::workspace scratch{thrust::cpp::par};
+  test::for_each_schedule([&](auto schedule) {
+    auto const shade = [&](int n) {
+      ds::shade(thrust::cpp::par, schedule, n, ids, ds::shader_table{counting_shader{&calls}},
+                scratch);
+    };
+    shade(0);
+    CHECK(message_of<std::invalid_argument>([&] { shade(3); }) ==
+          "deferred_shade::shade: ids is null, and n is 3");
+  });
+  CHECK(calls == 0);
+}
+
+TEMPLATE_LIST_TEST_CASE("shade reads a device_count when it runs", "[shade]", test::backends) {
+  auto const exec = TestType::policy();
+  std::uint32_t const maximum = 1000;
+  std::vector<std::uint8_t> const ids(maximum, 0);
+  test::for_each_schedule([&](auto schedule) {
+    ds::workspace scratch{exec};
+    for (std::uint32_t const count : {0U, 1U, 33U, 1000U}) {
+      std::vector<int> runs(maximum, 0);
+      auto const run = [&runs](ds::request_index i) { ++runs[i]; };
+      ds::shade(exec, schedule, ds::device_count{&count, maximum}, ids.data(),
+                ds::shader_table{run}, scratch);
+      for (std::uint32_t i = 0; i < maximum; ++i) REQUIRE(runs[i] == (i < count ? 1 : 0));
+    }
+  });
+}
+
+TEST_CASE("a byte names 256 shaders", "[shade]") {
+  std::uint32_t const n = 30011;
+  auto const ids = test::make_ids<std::uint8_t>(test::layout::descending, n, 256, 1);
+  ds::workspace scratch{thrust::cpp::par};
+  test::check_against_loop<256>(thrust::cpp::par, ds::bucket_then_dispatch<>{}, n, ids.data(),
+                                scratch);
+}
+
+TEST_CASE("waves of any size share a workspace, also after an error", "[shade]") {
+  ds::workspace scratch{thrust::cpp::par};
+  test::for_each_schedule([&](auto schedule) {
+    for (std::uint32_t const n : {70000U, 3U, 0U, 20000U}) {
+      auto const ids = test::make_ids<std::uint8_t>(test::layout::random, n, 5, n);
+      test::check_against_loop<5>(thrust::cpp::par, schedule, n, ids.data(), scratch);
+      int calls = 0;
+      CHECK_THROWS(ds::shade(thrust::cpp::par, schedule, -1, ids.data(),
+                             ds::shader_table{counting_shader{&calls}}, scratch));
+    }
+  });
+}

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <deferred_shade/shader_table.hpp>
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "catch.hpp"
+
+namespace ds = deferred_shade;
+
+namespace {
+
+struct noting {
+  std::uint32_t id;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>>* runs;
+  void operator()(ds::request_index i) const { runs->emplace_back(id, i); }
+};
+
+template <std::uint32_t... Ids>
+auto table_of(std::vector<std::pair<std::uint32_t, std::uint32_t>>& runs,
+              std::integer_sequence<std::uint32_t, Ids...>) {
+  return ds::shader_table{noting{Ids, &runs}...};
+}
+
+template <std::uint32_t Size>
+void check_table() {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> runs;
+  auto const table = table_of(runs, std::make_integer_sequence<std::uint32_t, Size>());
+  STATIC_REQUIRE(decltype(table)::size() == Size);
+  for (std::uint32_t id = 0; id < Size; ++id) {
+    table.run(id, 1000 + id);
+    REQUIRE(runs.size() == id + 1);
+    CHECK(runs.back() == std::pair(id, 1000 + id));
+  }
+  table.run(Size, 1);
+  table.run(0xffffffffU, 1);
+  CHECK(runs.size() == Size);
+}
+
+}  // namespace
+
+TEST_CASE("run calls the shader at the position of the id", "[shader_table]") {
+  check_table<1>();
+  check_table<2>();
+  check_table<32>();
+  check_table<33>();
+  check_table<300>();
+}
+
+TEST_CASE("for_each passes every shader with its id", "[shader_table]") {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> runs;
+  ds::shader_table const table{noting{7, &runs}, noting{8, &runs}};
+  std::vector<std::uint32_t> seen;
+  table.for_each([&](auto id, noting const& shader) {
+    STATIC_REQUIRE(decltype(id)::value < 2);
+    seen.push_back(id);
+    CHECK(shader.id == 7 + id);
+  });
+  CHECK(seen == std::vector<std::uint32_t>{0, 1});
+}
+
+TEST_CASE("a table holds lambdas and one shader twice", "[shader_table]") {
+  int calls = 0;
+  auto const count = [&calls](ds::request_index) { ++calls; };
+  ds::shader_table const table{count, count};
+  table.run(0, 0);
+  table.run(1, 0);
+  CHECK(calls == 2);
+}

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <deferred_shade/statistics.hpp>
+
+#include <cmath>
+#include <vector>
+
+#include "catch.hpp"
+#include "support/backends.hpp"
+#include "support/random_ids.hpp"
+
+namespace ds = deferred_shade;
+
+namespace {
+
+/// The efficiency of the definition, group by group, in plain loops.
+double efficiency_by_definition(std::vector<std::uint8_t> const& ids,
+                                std::vector<double> const& costs, std::size_t width) {
+  double useful = 0;
+  double held = 0;
+  for (std::size_t first = 0; first < ids.size(); first += width) {
+    std::vector<double> n(costs.size(), 0);
+    for (std::size_t i = first; i < std::min(ids.size(), first + width); ++i) {
+      if (ids[i] < costs.size()) ++n[ids[i]];
+    }
+    for (std::size_t k = 0; k < costs.size(); ++k) {
+      useful += n[k] * costs[k];
+      held += std::min(n[k], 1.0) * costs[k];
+    }
+  }
+  return held > 0 ? useful / (static_cast<double>(width) * held) : 1;
+}
+
+}  // namespace
+
+TEMPLATE_LIST_TEST_CASE("efficiency of two shaders is the paper's", "[statistics]",
+                        test::backends) {
+  // One group of 32: n lanes of shader A and 32 - n of shader B use (n A + (32 - n) B) of the
+  // 32 (A + B) that the lanes are held for.
+  double const costs[2] = {3, 7};
+  ds::efficiency_model const model{costs, 2};
+  for (std::uint32_t n = 0; n <= 32; ++n) {
+    CAPTURE(n);
+    std::vector<std::uint8_t> ids(32, 1);
+    for (std::uint32_t i = 0; i < n; ++i) ids[i * 5 % 32] = 0;
+    double const useful = n * 3 + (32 - n) * 7;
+    double const held = 32 * ((n > 0 ? 3 : 0) + (n < 32 ? 7 : 0));
+    CHECK_THAT(ds::heterogeneous_efficiency(TestType::policy(), 32U, ids.data(), model),
+               WithinRel(useful / held, 1e-15));
+  }
+}
+
+TEST_CASE("efficiency by hand", "[statistics]") {
+  double const costs[3] = {1, 1, 4};
+  auto const of = [&](std::vector<std::uint8_t> const& ids, std::uint32_t width) {
+    return ds::heterogeneous_efficiency(thrust::cpp::par,
+                                        static_cast<ds::request_index>(ids.size()), ids.data(),
+                                        ds::efficiency_model{costs, 3, width});
+  };
+  CHECK(of({0, 0, 0, 0}, 4) == 1);
+  CHECK(of({0, 1, 0, 1}, 4) == 0.5);
+  CHECK(of({0, 1, 0, 1}, 2) == 0.5);
+  CHECK(of({0, 0, 1, 1}, 2) == 1);
+  CHECK(of({0, 1, 0, 1}, 1) == 1);
+  CHECK(of({2, 0, 0, 0}, 4) == 7.0 / 20);
+  // A lane whose id names no shader, and a lane beyond the end, are idle.
+  CHECK(of({0, 255, 255, 0}, 4) == 0.5);
+  CHECK(of({0, 0, 0, 0, 0, 0}, 4) == 0.75);
+  // No request at all.
+  CHECK(of({}, 4) == 1);
+  CHECK(of({255, 255}, 4) == 1);
+}
+
+TEMPLATE_LIST_TEST_CASE("efficiency and occurrences agree with the definition", "[statistics]",
+                        test::backends) {
+  auto const exec = TestType::policy();
+  std::vector<double> const costs{1, 2.5, 0.125, 17, 3};
+  for (std::uint32_t const n : test::edge_sizes()) {
+    for (test::layout const how : test::layouts) {
+      for (std::uint32_t const width : {1U, 7U, 32U}) {
+        std::uint32_t const seed = test::run_seed() + n;
+        CAPTURE(n, static_cast<int>(how), width, seed);
+        auto const ids = test::make_ids<std::uint8_t>(how, n, 5, seed);
+        ds::efficiency_model const model{costs.data(), 5, width};
+        CHECK_THAT(ds::heterogeneous_efficiency(exec, n, ids.data(), model),
+                   WithinRel(efficiency_by_definition(ids, costs, width), 1e-12));
+
+        std::vector<std::uint64_t> histogram(6, 0);
+        for (auto const id : ids) ++histogram[id < 5 ? id : 5];
+        CHECK(ds::count_occurrences(exec, n, ids.data(), 5, width).requests == histogram);
+
+        std::vector<float> groups((n + width - 1) / width);
+        ds::group_efficiency(exec, n, ids.data(), model, groups.data());
+        bool all_agree = true;
+        for (std::size_t g = 0; g < groups.size(); ++g) {
+          auto const first = ids.begin() + static_cast<std::ptrdiff_t>(g * width);
+          auto const last = std::min(first + width, ids.end());
+          bool const empty = std::all_of(first, last, [](auto id) { return id >= 5; });
+          double const expected = efficiency_by_definition({first, last}, costs, width);
+          all_agree = all_agree && (empty ? std::isnan(groups[g])
+                                          : std::abs(groups[g] - expected) <= 1e-6 * expected);
+        }
+        CHECK(all_agree);
+      }
+    }
+  }
+}
+
+TEST_CASE("a group has at least one lane", "[statistics]") {
+  std::uint8_t const ids[1] = {0};
+  double const costs[1] = {1};
+  ds::efficiency_model const model{costs, 1, 0};
+  float efficiency = 0;
+  CHECK_THROWS_AS(ds::heterogeneous_efficiency(thrust::cpp::par, 1U, ids, model),
+                  std::invalid_argument);
+  CHECK_THROWS_AS(ds::group_efficiency(thrust::cpp::par, 1U, ids, model, &efficiency),
+                  std::invalid_argument);
+}

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <random>
+#include <type_traits>
+#include <vector>
+
+namespace test {
+
+/// The seed of this run: DEFERRED_SHADE_TEST_SEED where it is set, else a fresh one. A test prints
+/// it with CAPTURE, so that a failure can be run again.
+inline std::uint32_t run_seed() {
+  static std::uint32_t const seed = [] {
+    char const* const text = std::getenv("DEFERRED_SHADE_TEST_SEED");
+    return text ? static_cast<std::uint32_t>(std::strtoul(text, nullptr, 10))
+                : std::random_device{}();
+  }();
+  return seed;
+}
+
+/// Sizes of a wave on the edges: of a SIMD group, a bitonic tile, a counting tile, a block.
+inline std::vector<std::uint32_t> edge_sizes() {
+  return {0, 1, 2, 31, 32, 33, 63, 65, 255, 256, 257, 8191, 8192, 8193, 16383, 16384, 16385, 50021};
+}
+
+/// Fewer of them, for the tenth type of id.
+inline std::vector<std::uint32_t> some_sizes() { return {0, 1, 33, 257, 8193, 16385}; }
+
+/// How ids lie in a wave.
+enum class layout {
+  random,      ///< all shaders, and some ids that name none
+  coherent,    ///< stretches of one id, 32 long on average
+  one_shader,  ///< the last shader of the table alone
+  none,        ///< ids outside the table alone
+  descending   ///< from the last shader to the first
+};
+inline constexpr layout layouts[] = {layout::random, layout::coherent, layout::one_shader,
+                                     layout::none, layout::descending};
+
+/// An id that no table of `shaders` shaders has: -1 or another negative one, the first beyond, or
+/// the largest. An 8-bit type that 256 shaders fill has none; the caller's table is smaller.
+template <class Id>
+Id outside(std::uint32_t shaders, std::mt19937& engine) {
+  switch (engine() % 3) {
+    case 0:
+      return static_cast<Id>(shaders);
+    case 1:
+      return static_cast<Id>(-1);
+    default:
+      return std::is_signed_v<Id> ? std::numeric_limits<Id>::min() : std::numeric_limits<Id>::max();
+  }
+}
+
+/// `n` ids over `shaders` shaders.
+template <class Id>
+std::vector<Id> make_ids(layout how, std::uint32_t n, std::uint32_t shaders, std::uint32_t seed) {
+  std::mt19937 engine(seed);
+  std::vector<Id> ids(n);
+  Id current{};
+  for (std::uint32_t i = 0; i < n; ++i) {
+    switch (how) {
+      case layout::random:
+        ids[i] =
+            engine() % 8 == 0 ? outside<Id>(shaders, engine) : static_cast<Id>(engine() % shaders);
+        break;
+      case layout::coherent:
+        if (i == 0 || engine() % 32 == 0) current = static_cast<Id>(engine() % (shaders + 1));
+        ids[i] = current;
+        break;
+      case layout::one_shader:
+        ids[i] = static_cast<Id>(shaders - 1);
+        break;
+      case layout::none:
+        ids[i] = outside<Id>(shaders, engine);
+        break;
+      case layout::descending:
+        ids[i] = static_cast<Id>(shaders - 1 - std::uint64_t{i} * shaders / n);
+        break;
+    }
+  }
+  return ids;
+}
+
+}  // namespace test

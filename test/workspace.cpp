@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <deferred_shade/workspace.hpp>
+
+#include <cstdint>
+#include <new>
+#include <vector>
+
+#include "catch.hpp"
+#include "support/allocation_count.hpp"
+#include "support/backends.hpp"
+#include "support/every_schedule.hpp"
+#include "support/random_ids.hpp"
+
+namespace ds = deferred_shade;
+
+namespace {
+
+/// An allocator that counts, and that fails on demand.
+struct ledger {
+  std::size_t allocations = 0;
+  std::size_t live_bytes = 0;
+  std::size_t limit = static_cast<std::size_t>(-1);
+};
+
+template <class T>
+struct ledger_allocator {
+  using value_type = T;
+  ledger* book;
+
+  explicit ledger_allocator(ledger& l) : book(&l) {}
+  template <class U>
+  ledger_allocator(ledger_allocator<U> const& other) : book(other.book) {}
+
+  T* allocate(std::size_t n) {
+    if (n * sizeof(T) > book->limit) throw std::bad_alloc();
+    ++book->allocations;
+    book->live_bytes += n * sizeof(T);
+    return std::allocator<T>().allocate(n);
+  }
+  void deallocate(T* p, std::size_t n) {
+    book->live_bytes -= n * sizeof(T);
+    std::allocator<T>().deallocate(p, n);
+  }
+  template <class U>
+  bool operator==(ledger_allocator<U> const& other) const {
+    return book == other.book;
+  }
+};
+
+struct nothing {
+  void operator()(ds::request_index) const {}
+};
+
+template <std::uint32_t... Ids>
+auto table_of_nothing(std::integer_sequence<std::uint32_t, Ids...>) {
+  return ds::shader_table{(static_cast<void>(Ids), nothing{})...};
+}
+
+template <std::uint32_t Shaders, class Policy, class Allocator>
+void shade_all(Policy const& exec, std::vector<std::uint16_t> const& ids,
+               ds::workspace<Allocator>& scratch) {
+  auto const shaders = table_of_nothing(std::make_integer_sequence<std::uint32_t, Shaders>());
+  test::for_each_schedule(
+      [&](auto schedule) { ds::shade(exec, schedule, ids.size(), ids.data(), shaders, scratch); });
+}
+
+}  // namespace
+
+TEST_CASE("arrays of a workspace are aligned and apart", "[workspace]") {
+  ds::workspace<> scratch;
+  for (std::size_t n : {0UL, 1UL, 127UL, 128UL, 129UL, 5000UL}) {
+    CAPTURE(n);
+    auto const [bytes, words, doubles] = scratch.take(
+        ds::elements<std::uint8_t>(n), ds::elements<std::uint32_t>(n + 1), ds::elements<double>(n));
+    CHECK(reinterpret_cast<std::uintptr_t>(bytes) % 128 == 0);
+    CHECK(reinterpret_cast<std::uintptr_t>(words) % 128 == 0);
+    CHECK(reinterpret_cast<std::uintptr_t>(doubles) % 128 == 0);
+    for (std::size_t i = 0; i < n; ++i) {
+      bytes[i] = 1;
+      doubles[i] = 3;
+    }
+    for (std::size_t i = 0; i <= n; ++i) words[i] = 2;
+    for (std::size_t i = 0; i < n; ++i) {
+      REQUIRE(bytes[i] == 1);
+      REQUIRE(doubles[i] == 3);
+    }
+  }
+}
+
+TEST_CASE("a workspace grows, never shrinks, and gives everything back", "[workspace]") {
+  ledger book;
+  {
+    ds::workspace scratch{ledger_allocator<std::byte>(book)};
+    CHECK(scratch.capacity() == 0);
+    CHECK(book.allocations == 0);
+    scratch.take(ds::elements<int>(1000));
+    std::size_t const grown = scratch.capacity();
+    CHECK(grown >= 4000);
+    CHECK(book.live_bytes == grown);
+    scratch.take(ds::elements<int>(10));
+    CHECK(scratch.capacity() == grown);
+    CHECK(book.allocations == 1);
+
+    ds::workspace moved{std::move(scratch)};
+    CHECK(moved.capacity() == grown);
+    ds::workspace<ledger_allocator<std::byte>> target{ledger_allocator<std::byte>(book)};
+    target = std::move(moved);
+    CHECK(target.capacity() == grown);
+    CHECK(book.live_bytes == grown);
+    target.release();
+    CHECK(target.capacity() == 0);
+    CHECK(book.live_bytes == 0);
+    target.take(ds::elements<int>(10));
+    CHECK(book.live_bytes > 0);
+  }
+  CHECK(book.live_bytes == 0);
+}
+
+TEST_CASE("a workspace stays usable when its allocator fails", "[workspace]") {
+  ledger book;
+  ds::workspace scratch{ledger_allocator<std::byte>(book)};
+  std::vector<std::uint16_t> const ids(50000, 1);
+  book.limit = 1000;
+  int calls = 0;
+  auto const count = [&calls](ds::request_index) { ++calls; };
+  auto const shade = [&] {
+    ds::shade(thrust::cpp::par, ds::sort_then_dispatch<>{}, ids.size(), ids.data(),
+              ds::shader_table{count, count}, scratch);
+  };
+  CHECK_THROWS_AS(shade(), std::bad_alloc);
+  CHECK(calls == 0);
+  CHECK(book.live_bytes == 0);
+  book.limit = static_cast<std::size_t>(-1);
+  shade();
+  CHECK(calls == 50000);
+}
+
+TEMPLATE_LIST_TEST_CASE("reserve is enough for every schedule", "[workspace]", test::backends) {
+  auto const exec = TestType::policy();
+  for (std::uint32_t const n : {1U, 63U, 16384U, 16385U, 200003U}) {
+    std::uint32_t const seed = test::run_seed();
+    CAPTURE(n, seed);
+    auto const check = [&](auto shaders) {
+      ledger book;
+      ds::workspace scratch{ledger_allocator<std::byte>(book)};
+      auto const ids = test::make_ids<std::uint16_t>(test::layout::random, n, shaders, seed);
+      scratch.reserve(n, shaders);
+      CHECK(scratch.capacity() >= scratch.bytes_for(n, shaders));
+      shade_all<shaders>(exec, ids, scratch);
+      CHECK(book.allocations == 1);
+    };
+    check(std::integral_constant<std::uint32_t, 1>{});
+    check(std::integral_constant<std::uint32_t, 11>{});
+  }
+}
+
+TEST_CASE("reserve is enough for keys of two bytes", "[workspace]") {
+  ledger book;
+  ds::workspace scratch{ledger_allocator<std::byte>(book)};
+  std::uint32_t const n = 100003;
+  auto const ids = test::make_ids<std::uint16_t>(test::layout::random, n, 300, test::run_seed());
+  scratch.reserve(n, 300);
+  ds::group_by_radix_sort<300>(thrust::cpp::par, n, ids.data(), scratch);
+  ds::group_by_bucket<300>(thrust::cpp::par, n, ids.data(), scratch);
+  ds::group_by_compaction<300>(thrust::cpp::par, n, ids.data(), scratch);
+  CHECK(book.allocations == 1);
+}
+
+TEMPLATE_LIST_TEST_CASE("nothing allocates once the workspace is warm", "[workspace]",
+                        test::backends) {
+  if (!test::counts_allocations) return;
+  auto const exec = TestType::policy();
+  std::uint32_t const seed = test::run_seed();
+  CAPTURE(seed);
+  auto const ids = test::make_ids<std::uint16_t>(test::layout::random, 300007, 11, seed);
+  ds::workspace scratch{exec};
+  shade_all<11>(exec, ids, scratch);
+  // The threads of the runtime, too, are warm now. TBB may still make a task arena of its own.
+  std::size_t const before = test::allocations();
+  shade_all<11>(exec, ids, scratch);
+  CHECK(test::allocations() == before);
+}
