@@ -65,7 +65,7 @@ grouping group_by_radix_sort(Policy const& exec, request_index n, Ids ids,
   auto const [permutation, keys, indices, temporary, counts, offsets] = scratch.take(
       elements<request_index>(n), elements<key>(n), elements<request_index>(n),
       elements<std::byte>(padded * pair_size), elements<std::uint32_t>(blocks.count() * columns),
-      elements<request_index>(columns + 1));
+      elements<request_index>(columns));
 
   detail::for_each_block(
       exec, blocks,
