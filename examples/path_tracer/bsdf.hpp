@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "albedo.hpp"
+#include "math.hpp"
+#include "microfacet.hpp"
+
+namespace path_tracer {
+
+// Every bsdf_* is a small value with two members, in the frame of microfacet.hpp, wo.z > 0:
+//   bsdf_value value(vec3 wo, vec3 wi) const;     what a given direction carries
+//   bsdf_sample sample(vec3 wo, vec3 u) const;    a direction, from three numbers in [0, 1)
+// They conserve energy, and are reciprocal. Throughput counts radiance over the squared refractive
+// index, which an interface leaves alone (Veach 1997, section 5.2): no factor eta^2 for glass.
+
+struct bsdf_value {
+  vec3 f_cos{0};  ///< f(wo, wi) |cos(theta_i)|
+  float pdf = 0;  ///< with which sample() takes wi, per solid angle
+};
+
+struct bsdf_sample {
+  vec3 wi{0, 0, 1};
+  vec3 weight{0};  ///< f |cos(theta_i)| / pdf; 0: the path ends
+  float pdf = 0;
+  bool delta = false;  ///< the only direction of a mirror: no pdf, value() does not know it
+};
+
+/// The sample that `b` makes of a direction: its weight counts all lobes that reach it.
+template <class Bsdf>
+PT_HD bsdf_sample sample_towards(Bsdf const& b, vec3 wo, vec3 wi) {
+  bsdf_value const v = b.value(wo, wi);
+  if (!(v.pdf > 0)) return {};
+  return {wi, v.f_cos / v.pdf, v.pdf, false};
+}
+
+/// The choice between two by one number: true with probability p, and u uniform again.
+PT_HD inline bool choose(float p, float& u) {
+  bool const first = u < p;
+  u = first ? u / p : (u - p) / (1 - p);
+  u = glm::clamp(u, 0.0f, 0x1.fffffep-1f);
+  return first;
+}
+
+/// Lambertian reflection.
+struct bsdf_matte {
+  vec3 color;
+
+  PT_HD bsdf_value value(vec3, vec3 wi) const {
+    if (wi.z <= 0) return {};
+    return {color * (wi.z / pi), wi.z / pi};
+  }
+  PT_HD bsdf_sample sample(vec3 wo, vec3 u) const {
+    return sample_towards(*this, wo, sample_cosine({u.x, u.y}));
+  }
+};
+
+/// A reflecting GGX lobe with Schlick's Fresnel term.
+struct specular_lobe {
+  ggx distribution;
+  vec3 f0, f90;
+
+  PT_HD bsdf_value value(vec3 wo, vec3 wi) const {
+    if (wi.z <= 0) return {};
+    vec3 const m = glm::normalize(wo + wi);
+    float const d = distribution.d(m) / (4 * wo.z);
+    return {schlick(f0, f90, glm::dot(wo, m)) * (d * distribution.g2(wo, wi)),
+            d * distribution.g1(wo)};
+  }
+  PT_HD vec3 direction(vec3 wo, vec3 u) const {
+    vec3 const m = distribution.sample(wo, {u.x, u.y});
+    return 2 * glm::dot(wo, m) * m - wo;
+  }
+};
+
+/// A conductor: F0 is the colour, as glTF has it.
+struct bsdf_metal {
+  specular_lobe lobe;
+
+  PT_HD bsdf_value value(vec3 wo, vec3 wi) const { return lobe.value(wo, wi); }
+  PT_HD bsdf_sample sample(vec3 wo, vec3 u) const {
+    return sample_towards(*this, wo, lobe.direction(wo, u));
+  }
+};
+
+/// The metallic-roughness material of glTF with KHR_materials_specular and _ior: a specular lobe,
+/// and below it a diffuse base that gets what the lobe does not reflect. Where glTF suggests
+/// 1 - F(wo.m) for that share, which adds energy at grazing angles, this takes the reciprocal form
+/// of Kelemen and Szirmay-Kalos (2001), (1 - E(wo)) (1 - E(wi)) / (1 - mean of E), where E is the
+/// share that the dielectric lobe reflects.
+class bsdf_plastic {
+ public:
+  struct parameters {
+    vec3 color{0.8f};
+    float metallic = 0, roughness = 1, ior = 1.5f, specular = 1;
+    vec3 specular_color{1};
+  };
+
+  PT_HD bsdf_plastic(parameters const& p, albedo_tables const* tables) {
+    vec3 const f0 = glm::min(dielectric_f0(p.ior) * p.specular_color, vec3{1}) * p.specular;
+    lobe_.distribution.alpha = alpha_of(p.roughness);
+    lobe_.f0 = glm::mix(f0, p.color, p.metallic);
+    lobe_.f90 = vec3{glm::mix(p.specular, 1.0f, p.metallic)};
+    diffuse_ = p.color * (1 - p.metallic);
+    tables_ = tables;
+    roughness_ = p.roughness;
+    f0_ = max_component(f0);
+    f90_ = p.specular;
+    float const mean = dot(tables->ggx_mean(p.roughness), {f0_, f90_});
+    scale_ = mean < 1 ? 1 / (1 - mean) : 0.0f;
+  }
+
+  PT_HD bsdf_value value(vec3 wo, vec3 wi) const {
+    if (wi.z <= 0) return {};
+    vec2 const e = tables_->ggx(wo.z, roughness_);
+    float const below = 1 - dot(e, {f0_, f90_});
+    float const p = specular_share(e, below);
+    bsdf_value v = p > 0 ? lobe_.value(wo, wi) : bsdf_value{};
+    float const diffuse = below * (1 - dot(tables_->ggx(wi.z, roughness_), {f0_, f90_})) * scale_;
+    v.f_cos += diffuse_ * (diffuse * (wi.z / pi));
+    v.pdf = p * v.pdf + (1 - p) * (wi.z / pi);
+    return v;
+  }
+
+  PT_HD bsdf_sample sample(vec3 wo, vec3 u) const {
+    vec2 const e = tables_->ggx(wo.z, roughness_);
+    bool const specular = choose(specular_share(e, 1 - dot(e, {f0_, f90_})), u.z);
+    return sample_towards(*this, wo, specular ? lobe_.direction(wo, u) : sample_cosine({u.x, u.y}));
+  }
+
+ private:
+  PT_HD static float dot(vec2 a, vec2 b) { return a.x * b.x + a.y * b.y; }
+  PT_HD float specular_share(vec2 e, float below) const {
+    float const s = dot(e, {luminance(lobe_.f0), lobe_.f90.x});
+    return s > 0 ? s / (s + luminance(diffuse_) * below) : 0.0f;
+  }
+
+  specular_lobe lobe_;
+  vec3 diffuse_;
+  albedo_tables const* tables_;
+  float roughness_, f0_, f90_, scale_;
+};
+
+}  // namespace path_tracer

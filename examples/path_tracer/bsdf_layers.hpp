@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bsdf.hpp"
+
+namespace path_tracer {
+
+/// The lobe of KHR_materials_clearcoat: a dielectric of F0 0.04, scaled by its factor.
+struct coat_lobe {
+  float factor, roughness;
+  albedo_tables const* tables;
+
+  PT_HD bsdf_value value(vec3 wo, vec3 wi) const { return lobe().value(wo, wi); }
+  PT_HD vec3 direction(vec3 wo, vec3 u) const { return lobe().direction(wo, u); }
+  PT_HD float albedo(float cos_theta) const {
+    vec2 const e = tables->ggx(cos_theta, roughness);
+    return factor * (0.04f * e.x + e.y);
+  }
+
+ private:
+  PT_HD specular_lobe lobe() const {
+    return {{alpha_of(roughness)}, vec3{0.04f * factor}, vec3{factor}};
+  }
+};
+
+/// The lobe of KHR_materials_sheen.
+struct sheen_lobe {
+  vec3 color;
+  float roughness;
+  albedo_tables const* tables;
+
+  PT_HD bsdf_value value(vec3 wo, vec3 wi) const {
+    if (wi.z <= 0) return {};
+    return {color * charlie{sheen_alpha(roughness)}.reflect(wo, wi), 1 / (2 * pi)};
+  }
+  PT_HD vec3 direction(vec3, vec3 u) const { return polar(u.y, 2 * pi * u.x); }
+  PT_HD float albedo(float cos_theta) const {
+    return max_component(color) * tables->sheen(cos_theta, roughness);
+  }
+};
+
+/// A lobe on top of a material, which gets what the lobe leaves of the light: the share
+/// min(1 - E(wo), 1 - E(wi)), as KHR_materials_sheen has it, for E the albedo of the lobe.
+template <class Lobe, class Base>
+struct bsdf_layered {
+  Lobe lobe;
+  Base base;
+  float base_albedo;  ///< a guess, for the choice of what to sample
+
+  PT_HD bsdf_value value(vec3 wo, vec3 wi) const {
+    if (wi.z <= 0) return {};
+    float const e = lobe.albedo(wo.z);
+    float const p = lobe_share(e);
+    bsdf_value const top = lobe.value(wo, wi);
+    bsdf_value const below = base.value(wo, wi);
+    float const through = 1 - glm::max(e, lobe.albedo(wi.z));
+    return {top.f_cos + through * below.f_cos, p * top.pdf + (1 - p) * below.pdf};
+  }
+  PT_HD bsdf_sample sample(vec3 wo, vec3 u) const {
+    bool const top = choose(lobe_share(lobe.albedo(wo.z)), u.z);
+    if (top) return sample_towards(*this, wo, lobe.direction(wo, u));
+    bsdf_sample const below = base.sample(wo, u);
+    return below.pdf > 0 ? sample_towards(*this, wo, below.wi) : below;
+  }
+
+ private:
+  PT_HD float lobe_share(float e) const {
+    return e > 0 ? e / (e + (1 - e) * glm::max(base_albedo, 0.05f)) : 0.0f;
+  }
+};
+
+}  // namespace path_tracer

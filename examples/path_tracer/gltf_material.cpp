@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cstring>
+#include <map>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "gltf_parts.hpp"
+
+namespace path_tracer::gltf {
+namespace {
+
+constexpr float smooth_below = 0.03f;    // roughness; the reason is in gltf.hpp
+constexpr float metal_from = 0.99f;      // metallic
+constexpr float infinite_ior = 1000.0f;  // what KHR_materials_ior means by an ior of 0
+
+float number_at(json const& from, char const* pointer, float otherwise) {
+  return static_cast<float>(value_at(from, pointer, double{otherwise}));
+}
+
+vec3 color_at(json const& from, char const* pointer, vec3 otherwise) {
+  auto const v = value_at(from, pointer, std::vector<double>{});
+  return v.size() < 3 ? otherwise : vec3(glm::dvec3(v[0], v[1], v[2]));
+}
+
+class material_reader {
+ public:
+  material_reader(document& d, scene& out) : document_(d), scene_(out) {}
+
+  void append(std::size_t index) {
+    json const& from = document_.root["materials"][index];
+    where_ = element(document_.root, "materials", index);
+    material m = read_factors(from);
+    m.base_color_texture = add_texture(from, "/pbrMetallicRoughness/baseColorTexture", true);
+    m.metallic_roughness_texture =
+        add_texture(from, "/pbrMetallicRoughness/metallicRoughnessTexture", false);
+    m.normal_texture = add_texture(from, "/normalTexture", false);
+    choose_shader(from, m);
+    if (value_at(from, "/alphaMode", std::string("OPAQUE")) != "OPAQUE")
+      document_.left_out.add("alphaMode " + from["alphaMode"].get<std::string>(), where_);
+    scene_.materials.push_back(m);
+  }
+
+ private:
+  static material read_factors(json const& from) {
+    material m;
+    m.base_color = color_at(from, "/pbrMetallicRoughness/baseColorFactor", vec3(1));
+    m.metallic = number_at(from, "/pbrMetallicRoughness/metallicFactor", 1);
+    m.roughness = number_at(from, "/pbrMetallicRoughness/roughnessFactor", 1);
+    m.normal_scale = number_at(from, "/normalTexture/scale", 1);
+    m.two_sided = value_at(from, "/doubleSided", false);
+    m.emission = color_at(from, "/emissiveFactor", vec3(0)) *
+                 number_at(from, "/extensions/KHR_materials_emissive_strength/emissiveStrength", 1);
+    m.ior = number_at(from, "/extensions/KHR_materials_ior/ior", 1.5f);
+    if (m.ior == 0) m.ior = infinite_ior;
+    m.transmission =
+        number_at(from, "/extensions/KHR_materials_transmission/transmissionFactor", 0);
+    m.specular = number_at(from, "/extensions/KHR_materials_specular/specularFactor", 1);
+    m.specular_color =
+        color_at(from, "/extensions/KHR_materials_specular/specularColorFactor", vec3(1));
+    m.clearcoat = number_at(from, "/extensions/KHR_materials_clearcoat/clearcoatFactor", 0);
+    m.clearcoat_roughness =
+        number_at(from, "/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", 0);
+    m.sheen_color = color_at(from, "/extensions/KHR_materials_sheen/sheenColorFactor", vec3(0));
+    m.sheen_roughness = number_at(from, "/extensions/KHR_materials_sheen/sheenRoughnessFactor", 0);
+    m.second_color = color_at(from, "/extras/second_color", vec3(0));
+    m.pattern_scale = number_at(from, "/extras/pattern_scale", 1);
+    return m;
+  }
+
+  void choose_shader(json const& from, material& m) {
+    if (m.ior < 1) fail("its ior is between 0 and 1");
+    if (!(max_component(m.emission) <= 1e30f)) fail("its emission is beyond the range of a float");
+    std::string const asked = value_at(from, "/extras/shader", std::string());
+    bool const has_sheen = max_component(m.sheen_color) > 0;
+    if (!asked.empty() && asked != "marble" && asked != "wood")
+      document_.left_out.add("extras.shader \"" + asked + "\"", where_);
+
+    if (max_component(m.emission) > 0)
+      m.kind = shader::emitter;
+    else if (asked == "marble" || asked == "wood")
+      m.kind = asked == "wood" ? shader::wood : shader::marble;
+    else if (m.transmission > 0 && m.metallic < metal_from)
+      m.kind = m.roughness < smooth_below ? shader::smooth_glass : shader::rough_glass;
+    else if (m.clearcoat > 0)
+      m.kind = shader::clearcoat;
+    else if (has_sheen)
+      m.kind = shader::sheen;
+    else if (m.metallic >= metal_from && m.metallic_roughness_texture == no_texture)
+      m.kind = shader::metal;
+    else if (m.metallic == 0 && m.specular == 0)
+      m.kind = shader::matte;
+    else
+      m.kind = shader::plastic;
+
+    if (m.kind == shader::smooth_glass) m.roughness = 0;
+    bool const glass = m.kind == shader::smooth_glass || m.kind == shader::rough_glass;
+    char const* const under = " under another shader";
+    if (m.transmission > 0 && m.metallic < metal_from && !glass)
+      document_.left_out.add(std::string("transmission") + under, where_);
+    if (m.clearcoat > 0 && m.kind != shader::clearcoat)
+      document_.left_out.add(std::string("clearcoat") + under, where_);
+    if (has_sheen && m.kind != shader::sheen)
+      document_.left_out.add(std::string("sheen") + under, where_);
+  }
+
+  std::int32_t add_texture(json const& material, char const* pointer, bool srgb) {
+    json::json_pointer const p(pointer);
+    if (!material.contains(p)) return no_texture;
+    json const& info = material.at(p);
+    if (value_at(info, "/texCoord", 0) != 0) {
+      document_.left_out.add("texture with TEXCOORD_" + info["texCoord"].dump(), where_);
+      return no_texture;
+    }
+    auto const index = info["index"].get<std::size_t>();
+    auto const [known, is_new] = textures_.try_emplace({index, srgb}, 0);
+    if (!is_new) return known->second;
+
+    tinygltf::Texture const& from = document_.model.textures[index];
+    if (from.source < 0)
+      fail("its " + element(document_.root, "textures", index) + " has no PNG or JPEG image");
+    texture t = decode(static_cast<std::size_t>(from.source));
+    t.srgb = srgb;
+    if (from.sampler >= 0) {
+      tinygltf::Sampler const& s = document_.model.samplers[static_cast<std::size_t>(from.sampler)];
+      t.wrap_s = wrap_mode(s.wrapS);
+      t.wrap_t = wrap_mode(s.wrapT);
+      t.nearest = s.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+    }
+    scene_.textures.push_back(t);
+    return known->second = static_cast<std::int32_t>(scene_.textures.size() - 1);
+  }
+
+  std::uint8_t wrap_mode(int mode) const {
+    if (mode == TINYGLTF_TEXTURE_WRAP_REPEAT) return 0;
+    if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return 1;
+    if (mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return 2;
+    fail("a sampler has the wrap mode " + std::to_string(mode) + ", which glTF does not have");
+  }
+
+  texture decode(std::size_t index) {
+    auto const [known, is_new] = images_.try_emplace(index);
+    if (!is_new) return known->second;
+    tinygltf::Image const& image = document_.model.images[index];
+    std::string const name = "its " + element(document_.root, "images", index) + " ";
+    if (image.image.empty()) fail(name + "cannot be read from \"" + image.uri + "\"");
+    auto const size = static_cast<int>(image.image.size());
+    int width = 0, height = 0, channels = 0;
+    std::unique_ptr<stbi_uc, void (*)(void*)> const pixels(
+        stbi_load_from_memory(image.image.data(), size, &width, &height, &channels, 4),
+        stbi_image_free);
+    if (!pixels) fail(name + "cannot be decoded as PNG or JPEG: " + stbi_failure_reason());
+
+    texture t;
+    t.width = static_cast<std::uint32_t>(width);
+    t.height = static_cast<std::uint32_t>(height);
+    std::size_t const texels = std::size_t{t.width} * t.height;
+    if (texels > UINT32_MAX - scene_.texels.size())
+      fail("with " + name + "the scene has more than 2^32 texels");
+    t.offset = static_cast<std::uint32_t>(scene_.texels.size());
+    scene_.texels.reserve(scene_.texels.size() + texels);
+    for (std::size_t i = 0; i < texels; ++i) {
+      stbi_uc const* c = pixels.get() + 4 * i;
+      scene_.texels.push_back(c[0] | std::uint32_t{c[1]} << 8 | std::uint32_t{c[2]} << 16 |
+                              std::uint32_t{c[3]} << 24);
+    }
+    return known->second = t;
+  }
+
+  [[noreturn]] void fail(std::string const& what) const {
+    throw std::runtime_error(where_ + ": " + what);
+  }
+
+  document& document_;
+  scene& scene_;
+  std::string where_;
+  std::map<std::pair<std::size_t, bool>, std::int32_t> textures_;
+  std::map<std::size_t, texture> images_;
+};
+
+}  // namespace
+
+void append_materials(document& d, scene& out) {
+  material_reader reader(d, out);
+  for (std::size_t i = 0; i < d.model.materials.size(); ++i) reader.append(i);
+  // The default material of glTF 2.0, section 3.9.6.
+  material otherwise;
+  otherwise.base_color = vec3(1);
+  otherwise.metallic = 1;
+  otherwise.kind = shader::metal;
+  out.materials.push_back(otherwise);
+}
+
+}  // namespace path_tracer::gltf

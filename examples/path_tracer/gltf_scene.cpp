@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+#include <stdexcept>
+
+#include "gltf.hpp"
+#include "gltf_parts.hpp"
+
+namespace path_tracer {
+namespace {
+
+using namespace gltf;
+
+/// Walks the nodes of one scene in depth-first order and expands them.
+class traversal {
+ public:
+  traversal(document& d, scene& out) : document_(d), scene_(out), seen_(d.model.nodes.size()) {}
+
+  void run(std::vector<int> const& roots) {
+    push(roots, glm::dmat4(1));
+    while (!stack_.empty()) {
+      auto const [node, to_parent] = stack_.back();
+      stack_.pop_back();
+      visit(node, to_parent);
+    }
+    if (!has_camera_) throw std::runtime_error("has no camera in its default scene");
+    if (scene_.triangles.empty()) throw std::runtime_error("has no triangles in its default scene");
+  }
+
+ private:
+  struct placed {
+    std::size_t node;
+    glm::dmat4 to_parent;
+  };
+
+  void push(std::vector<int> const& nodes, glm::dmat4 const& to_parent) {
+    for (auto n = nodes.rbegin(); n != nodes.rend(); ++n)
+      stack_.push_back({static_cast<std::size_t>(*n), to_parent});
+  }
+
+  void visit(std::size_t index, glm::dmat4 const& to_parent) {
+    std::string const where = element(document_.root, "nodes", index);
+    if (seen_[index])
+      throw std::runtime_error(where + ": is reached twice, through a cycle or from two parents");
+    seen_[index] = true;
+    tinygltf::Node const& node = document_.model.nodes[index];
+    glm::dmat4 const to_world = to_parent * local_transform(document_, index);
+    double const determinant = glm::determinant(to_world);
+    if (!std::isfinite(determinant) || determinant == 0)
+      throw std::runtime_error(where + ": its transform to world space has the determinant " +
+                               std::to_string(determinant));
+    if (!(glm::length(glm::dvec3(to_world[3])) <= farthest))
+      throw std::runtime_error(where + ": lies more than 1e9 units from the origin");
+    if (node.mesh >= 0)
+      append_mesh(document_, static_cast<std::size_t>(node.mesh), to_world, scene_);
+    if (node.camera >= 0 && has_camera_) document_.left_out.add("further camera", where);
+    if (node.camera >= 0 && !has_camera_) {
+      scene_.view = make_camera(document_, static_cast<std::size_t>(node.camera), to_world);
+      has_camera_ = true;
+    }
+    int const light =
+        value_at(document_.root["nodes"][index], "/extensions/KHR_lights_punctual/light", -1);
+    if (light >= 0)
+      scene_.lights.push_back(make_light(document_, static_cast<std::size_t>(light), to_world));
+    push(node.children, to_world);
+  }
+
+  document& document_;
+  scene& scene_;
+  std::vector<bool> seen_;
+  std::vector<placed> stack_;
+  bool has_camera_ = false;
+};
+
+scene make_scene(document& d) {
+  if (d.model.scenes.empty()) throw std::runtime_error("has no scene");
+  scene result;
+  append_materials(d, result);
+  std::size_t const index =
+      d.model.defaultScene < 0 ? 0 : static_cast<std::size_t>(d.model.defaultScene);
+  for (std::size_t i = 0; i < d.model.scenes.size(); ++i)
+    if (i != index)
+      d.left_out.add("scene that is not the default one", element(d.root, "scenes", i));
+  traversal(d, result).run(d.model.scenes[index].nodes);
+  auto const background =
+      value_at(d.root["scenes"][index], "/extras/background", std::vector<double>{0, 0, 0});
+  result.background = vec3(glm::dvec3(background[0], background[1], background[2]));
+  result.warnings = d.left_out.lines();
+  return result;
+}
+
+/// Names come from the file, and messages of tinygltf may hold all of it.
+std::string one_line(std::string text) {
+  constexpr std::size_t longest = 240;
+  if (text.size() > longest) text = text.substr(0, longest) + "...";
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+}  // namespace
+
+scene load_gltf(std::string const& path) {
+  try {
+    document d = read_document(path);
+    scene result = make_scene(d);
+    for (std::string& warning : result.warnings) warning = one_line(path + ": " + warning);
+    return result;
+  } catch (std::runtime_error const& e) {
+    throw std::runtime_error(path + ": " + one_line(e.what()));
+  }
+}
+
+}  // namespace path_tracer

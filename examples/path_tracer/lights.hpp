@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "math.hpp"
+#include "scene.hpp"
+
+namespace path_tracer {
+
+/// A column of an alias table (Walker 1977): keeps its own light with probability `keep`, else
+/// gives `alias`. `probability` is that of its own light in all.
+struct light_entry {
+  float keep;
+  std::uint32_t alias;
+  float probability;
+  std::uint32_t index;  ///< of a triangle, or of a punctual light
+};
+
+/// The lights of a scene: first the emissive triangles, then the punctual lights.
+struct light_view {
+  light_entry const* entries;
+  std::uint32_t count;
+  std::uint32_t triangle_count;  ///< how many of the entries are triangles
+  punctual_light const* punctual;
+  float per_power;  ///< probability of a light per unit of its power
+  float far_away;   ///< a distance that leaves the scene from anywhere in it
+};
+
+/// The lights in host memory.
+class light_list {
+ public:
+  light_list() = default;
+  /// Picks each light in proportion to the power that it gives off.
+  explicit light_list(scene const& s);
+  light_view view(punctual_light const* punctual) const;
+
+ private:
+  std::vector<light_entry> entries_;
+  std::uint32_t triangle_count_ = 0;
+  float per_power_ = 0, far_away_ = 0;
+};
+
+/// Power per unit area of an emissive surface.
+PT_HD inline float radiosity(material const& m) {
+  return pi * luminance(m.emission) * (m.two_sided ? 2.0f : 1.0f);
+}
+
+struct light_sample {
+  vec3 wi{0, 0, 1};  ///< unit direction to the light
+  float distance = 0;
+  vec3 radiance{0};    ///< or for a punctual light, what arrives per unit of solid angle 1
+  vec3 normal{0};      ///< of an emissive triangle, on the side of the point; else 0
+  float pdf = 0;       ///< per solid angle; of a punctual light, its probability
+  bool delta = false;  ///< a punctual light: no other strategy can find it
+};
+
+/// The density per solid angle with which sample_light finds a point of an emissive surface.
+PT_HD inline float light_pdf(light_view const& lights, material const& m, float distance2,
+                             float cos_light) {
+  return lights.per_power * radiosity(m) * distance2 / cos_light;
+}
+
+/// What a punctual light sends to `p` (KHR_lights_punctual).
+PT_HD inline light_sample sample_punctual(punctual_light const& light, vec3 p, float far_away) {
+  light_sample s;
+  s.delta = true;
+  if (light.kind == punctual_light::type::directional) {
+    s.wi = -light.direction;
+    s.distance = far_away;
+    s.radiance = light.intensity;
+    return s;
+  }
+  vec3 const to_light = light.position - p;
+  float const d2 = glm::dot(to_light, to_light);
+  if (!(d2 > 0)) return s;
+  s.distance = std::sqrt(d2);
+  s.wi = to_light / s.distance;
+  float falloff = 1 / d2;
+  if (light.range > 0) {
+    float const ratio2 = d2 / (light.range * light.range);
+    falloff *= glm::clamp(1 - ratio2 * ratio2, 0.0f, 1.0f);
+  }
+  if (light.kind == punctual_light::type::spot) {
+    float const width = glm::max(1e-3f, light.cos_inner - light.cos_outer);
+    float const a =
+        glm::clamp((-glm::dot(s.wi, light.direction) - light.cos_outer) / width, 0.0f, 1.0f);
+    falloff *= a * a;
+  }
+  s.radiance = light.intensity * falloff;
+  return s;
+}
+
+/// A direction from `p` to a light: `pick` chooses the light, `place` the point on it.
+PT_HD inline light_sample sample_light(light_view const& lights, triangle const* triangles,
+                                       material const* materials, vec3 p, vec2 pick, vec2 place) {
+  auto slot = static_cast<std::uint32_t>(pick.x * static_cast<float>(lights.count));
+  slot = slot < lights.count ? slot : lights.count - 1;
+  if (pick.y >= lights.entries[slot].keep) slot = lights.entries[slot].alias;
+  light_entry const entry = lights.entries[slot];
+  if (slot >= lights.triangle_count) {
+    light_sample s = sample_punctual(lights.punctual[entry.index], p, lights.far_away);
+    s.pdf = entry.probability;
+    return s;
+  }
+  triangle const& t = triangles[entry.index];
+  material const& m = materials[t.material];
+  float const root = std::sqrt(place.x);
+  float const b1 = root * (1 - place.y), b2 = root * place.y;
+  vec3 const e1 = t.position[1] - t.position[0], e2 = t.position[2] - t.position[0];
+  vec3 const to_light = t.position[0] + b1 * e1 + b2 * e2 - p;
+  float const d2 = glm::dot(to_light, to_light);
+  light_sample s;
+  if (!(d2 > 0)) return s;
+  s.distance = std::sqrt(d2);
+  s.wi = to_light / s.distance;
+  s.normal = glm::normalize(glm::cross(e1, e2));
+  float cos_light = -glm::dot(s.wi, s.normal);
+  if (cos_light < 0 && m.two_sided) {
+    cos_light = -cos_light;
+    s.normal = -s.normal;
+  }
+  if (!(cos_light > 0)) return s;
+  s.radiance = m.emission;
+  s.pdf = light_pdf(lights, m, d2, cos_light);
+  return s;
+}
+
+/// The power heuristic (Veach 1997, section 9.2) of a strategy of density `a` against one of `b`.
+PT_HD inline float power_heuristic(float a, float b) {
+  float const ratio = b / a;
+  return 1 / (1 + ratio * ratio);
+}
+
+}  // namespace path_tracer

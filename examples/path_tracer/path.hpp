@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "math.hpp"
+#include "random.hpp"
+
+namespace path_tracer {
+
+/// The paths of one wave, an array per field; request i of the library is path i. A wave covers the
+/// items first, first + 1, ... of the image, of which number k is sample k / pixels of the pixel
+/// k % pixels: neighbours in a wave are neighbours in the picture.
+struct wave_view {
+  vec3* origin;      ///< the ray to trace next
+  vec3* direction;   ///< a unit vector
+  vec3* throughput;  ///< 0: the path is finished
+  vec3* radiance;    ///< collected so far
+  float* pdf;        ///< with which the BSDF took `direction`; 0: no light sample could have
+
+  std::uint32_t* primitive;  ///< what the ray hit
+  vec2* barycentric;
+  std::uint8_t* id;  ///< the shader to run, or `finished`
+
+  vec3* shadow_origin;
+  vec3* shadow_vector;  ///< from there to the light
+  vec3* shadow_light;   ///< what arrives if nothing is between; 0: nothing to trace
+
+  std::uint64_t first;
+  std::uint64_t seed;
+  std::uint32_t pixels;
+  std::uint32_t bounce;  ///< 0 for rays from the camera
+  std::uint32_t max_depth;
+
+  PT_HD std::uint32_t pixel(std::uint32_t i) const {
+    return static_cast<std::uint32_t>((first + i) % pixels);
+  }
+  PT_HD random_stream random(std::uint32_t i) const {
+    return {seed, pixel(i), static_cast<std::uint32_t>((first + i) / pixels)};
+  }
+};
+
+/// What each pair of random numbers is for. A bounce has four; the camera has one before them all.
+enum class draw : std::uint32_t { light, light_point, direction, lobe_and_roulette };
+
+PT_HD inline std::uint32_t pair_of(draw d, std::uint32_t bounce) {
+  return 1 + 4 * bounce + static_cast<std::uint32_t>(d);
+}
+
+}  // namespace path_tracer

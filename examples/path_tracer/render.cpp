@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "bvh_builder.hpp"
+#include "integrator.hpp"
+
+namespace path_tracer {
+namespace {
+
+struct backend {
+  std::string_view name;
+  render_result (*render)(scene_view const&, render_settings const&, progress_function const&);
+};
+
+constexpr backend all_backends[] = {
+    {"cpp", render_cpp},
+#ifdef PATH_TRACER_HAS_OMP
+    {"omp", render_omp},
+#endif
+#ifdef PATH_TRACER_HAS_TBB
+    {"tbb", render_tbb},
+#endif
+};
+
+/// Linear values of the 256 sRGB codes.
+std::vector<float> srgb_table() {
+  std::vector<float> table;
+  for (int code = 0; code < 256; ++code)
+    table.push_back(srgb_to_linear(static_cast<float>(code) / 255.0f));
+  return table;
+}
+
+void check(scene const& s, render_settings const& settings) {
+  std::uint64_t const pixels = std::uint64_t{settings.width} * settings.height;
+  if (pixels == 0 || pixels > 0x7fffffffu)
+    throw std::invalid_argument("a picture has 1 to 2^31 - 1 pixels");
+  if (settings.samples == 0) throw std::invalid_argument("a pixel has at least one sample");
+  for (triangle const& t : s.triangles)
+    if (t.material >= s.materials.size())
+      throw std::invalid_argument("a triangle names a material that the scene does not have");
+}
+
+}  // namespace
+
+std::vector<std::string_view> backends() {
+  std::vector<std::string_view> names;
+  for (backend const& b : all_backends) names.push_back(b.name);
+  return names;
+}
+
+std::vector<std::string_view> schedules() {
+  return {"implicit",      "explicit",      "compact+implicit", "compact+explicit",
+          "sort+implicit", "sort+explicit", "bucket+implicit",  "bucket+explicit",
+          "local-bitonic", "local"};
+}
+
+render_result render(scene const& s, render_settings const& settings,
+                     std::function<void(double)> const& progress) {
+  auto const chosen = std::find_if(std::begin(all_backends), std::end(all_backends),
+                                   [&](backend const& b) { return b.name == settings.backend; });
+  if (chosen == std::end(all_backends))
+    throw std::invalid_argument("unknown backend \"" + settings.backend + "\"");
+  check(s, settings);
+  bvh const hierarchy = build_bvh(s.triangles);
+  light_list const lights(s);
+  std::vector<float> const linear = srgb_table();
+  scene_view const view{hierarchy.view(),
+                        s.triangles.data(),
+                        s.materials.data(),
+                        {s.textures.data(), s.texels.data(), linear.data()},
+                        lights.view(s.lights.data()),
+                        &host_albedo_tables(),
+                        s.view,
+                        s.background};
+  return chosen->render(view, settings, progress);
+}
+
+}  // namespace path_tracer

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene.hpp"
+
+namespace path_tracer {
+
+struct render_settings {
+  std::uint32_t width = 512, height = 288;
+  std::uint32_t samples = 16;    ///< per pixel
+  std::uint32_t max_depth = 16;  ///< surface hits of a path at most
+  std::uint64_t seed = 1;
+  std::string backend = "omp";     ///< one of backends()
+  std::string schedule = "local";  ///< one of schedules()
+  unsigned threads = 0;            ///< 0: as many as the machine has
+  bool statistics = false;         ///< fill bounce::efficiency and bounce::group_efficiency
+};
+
+/// What one bounce took, summed over all waves of the image.
+struct bounce {
+  std::uint64_t requests = 0;  ///< requests that ran a shader
+  double group_ms = 0;         ///< the schedule over shaders that do nothing
+  double shade_ms = 0;         ///< total_ms - group_ms
+  double total_ms = 0;         ///< the schedule over the real shaders
+  double efficiency = 0;       ///< heterogeneous efficiency of the first wave in execution order
+  std::vector<float>
+      pixel_efficiency;  ///< per pixel of the first wave: its group's; NaN: no request
+};
+
+struct render_result {
+  std::vector<vec3> pixels;  ///< linear RGB radiance, row 0 on top
+  std::vector<bounce> bounces;
+  double seconds = 0;
+  std::uint64_t rays = 0;               ///< closest-hit and shadow rays
+  std::uint64_t discarded_samples = 0;  ///< samples that were not finite
+};
+
+/// Names for --backend and --schedule, in the order of the table that `--schedule all` prints.
+std::vector<std::string_view> backends();
+std::vector<std::string_view> schedules();
+
+/// Renders `s`; calls `progress` with the fraction done, from the calling thread.
+/// Throws std::invalid_argument for a name that the lists above do not have.
+render_result render(scene const& s, render_settings const& settings,
+                     std::function<void(double)> const& progress = {});
+
+}  // namespace path_tracer

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <thrust/system/cpp/execution_policy.h>
+
+#include "integrator.hpp"
+
+namespace path_tracer {
+
+render_result render_cpp(scene_view const& scene, render_settings const& settings,
+                         progress_function const& progress) {
+  return integrate(thrust::cpp::par, scene, settings, progress);
+}
+
+}  // namespace path_tracer

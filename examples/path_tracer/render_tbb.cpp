@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifdef PATH_TRACER_HAS_TBB
+
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+#include <thrust/system/tbb/execution_policy.h>
+
+#include "integrator.hpp"
+
+namespace path_tracer {
+
+render_result render_tbb(scene_view const& scene, render_settings const& settings,
+                         progress_function const& progress) {
+  std::size_t const threads =
+      settings.threads > 0 ? settings.threads
+                           : static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  tbb::global_control const limit(tbb::global_control::max_allowed_parallelism, threads);
+  return integrate(thrust::tbb::par, scene, settings, progress);
+}
+
+}  // namespace path_tracer
+
+#endif

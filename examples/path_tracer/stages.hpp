@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deferred_shade/types.hpp>
+
+#include "path.hpp"
+#include "surface.hpp"
+
+namespace path_tracer {
+
+using deferred_shade::request_index;
+
+/// Half the width and height of the view at distance 1 (or of an orthographic view): a file states
+/// the vertical field, and the width follows from the shape of the picture, whatever aspect ratio
+/// the file names.
+PT_HD inline vec2 half_extent(camera const& view, float aspect) {
+  float const y = view.ortho_height > 0 ? view.ortho_height : view.tan_half_yfov;
+  return {y * aspect, y};
+}
+
+/// Starts the paths of a wave: camera rays through random points of their pixels.
+struct generate_paths {
+  wave_view wave;
+  camera view;
+  std::uint32_t width, height;
+
+  PT_HD void operator()(request_index i) const {
+    std::uint32_t const pixel = wave.pixel(i);
+    vec2 const jitter = wave.random(i).pair(0);
+    auto const w = static_cast<float>(width), h = static_cast<float>(height);
+    vec2 const half = half_extent(view, w / h);
+    float const x = ((static_cast<float>(pixel % width) + jitter.x) * 2 / w - 1) * half.x;
+    float const y = (1 - (static_cast<float>(pixel / width) + jitter.y) * 2 / h) * half.y;
+    vec3 const aside = x * view.right + y * view.up;
+    bool const parallel = view.ortho_height > 0;
+    wave.origin[i] = parallel ? view.position + aside : view.position;
+    wave.direction[i] = parallel ? view.forward : glm::normalize(view.forward + aside);
+    wave.throughput[i] = vec3{1};
+    wave.radiance[i] = vec3{0};
+    wave.pdf[i] = 0;
+  }
+};
+
+/// Finds what each ray hits, and with it the shader to run.
+struct find_hits {
+  wave_view wave;
+  scene_view scene;
+
+  PT_HD void operator()(request_index i) const {
+    wave.shadow_light[i] = vec3{0};
+    if (wave.throughput[i] == vec3{0}) {
+      wave.id[i] = finished;
+      return;
+    }
+    hit const h = closest_hit(scene.bvh, {wave.origin[i], wave.direction[i], INFINITY});
+    wave.primitive[i] = h.primitive;
+    wave.barycentric[i] = h.barycentric;
+    shader const kind = h.primitive == no_primitive
+                            ? shader::miss
+                            : scene.materials[scene.triangles[h.primitive].material].kind;
+    wave.id[i] = static_cast<std::uint8_t>(kind);
+  }
+};
+
+/// Traces the shadow rays and adds the light that arrives; 1 for a path with a shadow ray.
+struct trace_shadows {
+  wave_view wave;
+  bvh_view bvh;
+
+  PT_HD std::uint64_t operator()(request_index i) const {
+    if (wave.id[i] == finished || wave.shadow_light[i] == vec3{0}) return 0;
+    if (!any_hit(bvh, {wave.shadow_origin[i], wave.shadow_vector[i], 1}))
+      wave.radiance[i] += wave.shadow_light[i];
+    return 1;
+  }
+};
+
+/// Adds the samples that a wave has of a pixel to its sum, in the order of the samples and in
+/// double, so that the picture does not depend on the size of a wave. Leaves out samples that are
+/// not finite, and returns how many. Runs over the pixels of the wave, at most one per path.
+struct accumulate_samples {
+  wave_view wave;
+  std::uint32_t paths;
+  glm::dvec3* sums;
+
+  PT_HD std::uint64_t operator()(request_index i) const {
+    std::uint64_t discarded = 0;
+    glm::dvec3& sum = sums[wave.pixel(i)];
+    for (std::uint64_t k = i; k < paths; k += wave.pixels) {
+      vec3 const c = wave.radiance[k];
+      float const total = c.x + c.y + c.z;
+      if (total - total == 0)
+        sum += glm::dvec3(c);
+      else
+        ++discarded;
+    }
+    return discarded;
+  }
+};
+
+}  // namespace path_tracer

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <thrust/system/cpp/execution_policy.h>
+
+#include <algorithm>
+#include <deferred_shade/deferred_shade.hpp>
+#include <limits>
+#include <numeric>
+#include <type_traits>
+#include <vector>
+
+#include "path.hpp"
+#include "render.hpp"
+
+namespace path_tracer {
+
+/// A shader that does nothing: what a schedule takes with it, it takes to group.
+struct empty_shader {
+  PT_HD void operator()(deferred_shade::request_index) const {}
+};
+
+/// A shader that writes down which requests ran, in order. For one thread.
+struct recording_shader {
+  std::vector<deferred_shade::request_index>* order;
+  void operator()(deferred_shade::request_index i) const { order->push_back(i); }
+};
+
+/// A table of the path tracer's size of the same shader.
+template <class Shader, std::size_t... Ids>
+auto uniform_table(Shader const& s, std::index_sequence<Ids...>) {
+  return deferred_shade::shader_table{((void)Ids, s)...};
+}
+template <class Shader>
+auto uniform_table(Shader const& s) {
+  return uniform_table(s, std::make_index_sequence<shader_count>());
+}
+
+/// Whether lanes stay with their requests, idle ones among them: the schedules without a grouping.
+template <class Schedule>
+inline constexpr bool keeps_order =
+    std::is_same_v<Schedule, deferred_shade::implicit_serialization> ||
+    std::is_same_v<Schedule, deferred_shade::explicit_serialization>;
+
+/// The requests of a wave in the order in which lanes take them.
+template <class Schedule>
+std::vector<deferred_shade::request_index> execution_order(Schedule const& schedule,
+                                                           std::uint32_t paths,
+                                                           std::uint8_t const* ids) {
+  std::vector<deferred_shade::request_index> order;
+  order.reserve(paths);
+  if constexpr (keeps_order<Schedule>) {
+    order.resize(paths);
+    std::iota(order.begin(), order.end(), 0u);
+  } else {
+    deferred_shade::workspace scratch{thrust::cpp::par};
+    deferred_shade::shade(thrust::cpp::par, schedule, paths, ids,
+                          uniform_table(recording_shader{&order}), scratch);
+  }
+  return order;
+}
+
+/// Fills the efficiencies of `b` from one wave: groups of 32 lanes, all shaders at one cost. A
+/// pixel with several samples in the wave shows the group of the first.
+template <class Schedule>
+void measure_efficiency(Schedule const& schedule, std::uint32_t paths, wave_view const& wave,
+                        bounce& b) {
+  auto const order = execution_order(schedule, paths, wave.id);
+  std::vector<std::uint8_t> ids(order.size());
+  std::transform(order.begin(), order.end(), ids.begin(), [&](auto i) { return wave.id[i]; });
+  std::vector<double> const costs(shader_count, 1.0);
+  deferred_shade::efficiency_model const model{costs.data(), shader_count};
+  auto const count = static_cast<deferred_shade::request_index>(order.size());
+  b.efficiency =
+      deferred_shade::heterogeneous_efficiency(thrust::cpp::par, count, ids.data(), model);
+  std::vector<float> groups((order.size() + model.width - 1) / model.width);
+  deferred_shade::group_efficiency(thrust::cpp::par, count, ids.data(), model, groups.data());
+  b.pixel_efficiency.assign(wave.pixels, std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t k = 0; k < order.size(); ++k)
+    if (order[k] < wave.pixels && ids[k] < shader_count)
+      b.pixel_efficiency[wave.pixel(order[k])] = groups[k / model.width];
+}
+
+}  // namespace path_tracer
