@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cuda/std/tuple>
 #include <type_traits>
 #include <utility>
 
@@ -9,6 +8,31 @@
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade {
+namespace detail {
+
+// A table has one base class per shader, and finds a shader by conversion to its base: unlike a
+// tuple, no fold or recursion over the pack limits its size or slows the compiler.
+template <shader_id Id, class Shader>
+struct table_slot {
+  Shader shader;
+};
+
+template <class Ids, class... Shaders>
+struct table_slots;
+template <shader_id... Ids, class... Shaders>
+struct table_slots<std::integer_sequence<shader_id, Ids...>, Shaders...>
+    : table_slot<Ids, Shaders>... {
+  constexpr explicit table_slots(Shaders... shaders)
+      : table_slot<Ids, Shaders>{std::move(shaders)}... {}
+};
+
+template <shader_id Id, class Shader>
+DEFERRED_SHADE_HOST_DEVICE constexpr Shader const& shader_in(
+    table_slot<Id, Shader> const& slot) noexcept {
+  return slot.shader;
+}
+
+}  // namespace detail
 
 /// The shaders that requests can name: the id of a shader is its position.
 ///
@@ -20,7 +44,7 @@ namespace deferred_shade {
 template <class... Shaders>
 class shader_table {
   static_assert(sizeof...(Shaders) > 0, "a shader table holds at least one shader");
-  static_assert((std::is_invocable_v<Shaders const&, request_index> && ...),
+  static_assert(std::conjunction_v<std::is_invocable<Shaders const&, request_index>...>,
                 "a shader is called as shader(request_index) and its operator() is const");
 
  public:
@@ -32,7 +56,7 @@ class shader_table {
   /// The shader at position `Id`.
   template <shader_id Id>
   DEFERRED_SHADE_HOST_DEVICE constexpr auto const& get() const noexcept {
-    return ::cuda::std::get<Id>(shaders_);
+    return detail::shader_in<Id>(shaders_);
   }
 
   /// Runs shader `id` on request `i`; does nothing where the table has no such shader.
@@ -44,7 +68,7 @@ class shader_table {
   /// Calls `f(id, shader)` for every shader in order; `id` is a std::integral_constant.
   template <class Function>
   void for_each(Function&& f) const {
-    for_each(f, std::make_integer_sequence<shader_id, size()>());
+    for_each_among<0, size()>(f);
   }
 
  private:
@@ -74,12 +98,24 @@ class shader_table {
     (void)((id == First + Offsets && (static_cast<void>(get<First + Offsets>()(i)), true)) || ...);
   }
 
-  template <class Function, shader_id... Ids>
-  void for_each(Function& f, std::integer_sequence<shader_id, Ids...>) const {
-    (f(std::integral_constant<shader_id, Ids>{}, get<Ids>()), ...);
+  template <shader_id First, shader_id Last, class Function>
+  void for_each_among(Function& f) const {
+    if constexpr (Last - First <= leaf_size) {
+      for_each_leaf<First>(f, std::make_integer_sequence<shader_id, Last - First>());
+    } else {
+      constexpr shader_id middle = First + (Last - First) / 2;
+      for_each_among<First, middle>(f);
+      for_each_among<middle, Last>(f);
+    }
   }
 
-  ::cuda::std::tuple<Shaders...> shaders_;
+  template <shader_id First, class Function, shader_id... Offsets>
+  void for_each_leaf(Function& f, std::integer_sequence<shader_id, Offsets...>) const {
+    (f(std::integral_constant<shader_id, First + Offsets>{}, get<First + Offsets>()), ...);
+  }
+
+  detail::table_slots<std::make_integer_sequence<shader_id, sizeof...(Shaders)>, Shaders...>
+      shaders_;
 };
 
 template <class... Shaders>
