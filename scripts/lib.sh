@@ -57,15 +57,27 @@ install_packages() {
 # fetch_wheel WHEEL DIR   Unpacks NVIDIA's wheel of CCCL below build/; fails when there is no way to it.
 fetch_wheel() {
   [[ -d $2 ]] && return 0
-  python3 -m pip --version >/dev/null 2>&1 || return 1
+  has_pip || return 1
   rm -rf "$2.part"
   PIP_ROOT_USER_ACTION=ignore python3 -m pip install --quiet --disable-pip-version-check --no-deps --only-binary=:all: \
     --target "$2.part" "$1" && mv "$2.part" "$2"
 }
 
+# Whether the build will find CCCL here; a guess as long as there is no CMake to search for it.
+has_cccl() {
+  if command -v cmake; then
+    cmake -P scripts/search_cccl.cmake
+  else
+    [[ -n ${CCCL_ROOT-} || -d build/cccl || -d /usr/local/cuda ]] || command -v nvcc
+  fi >/dev/null 2>&1
+}
+has_pip() { python3 -m pip --version >/dev/null 2>&1; }
+
 # Everything that a build needs, and the packages given.
 prepare() {
-  install_packages "${build_packages[@]}" "$@"
+  local pip=()
+  has_cccl || has_pip || pip=(python3-pip:)
+  install_packages "${build_packages[@]}" "${pip[@]}" "$@"
   local version
   version=$(cmake --version | sed -n 's/^cmake version \([0-9.]*\).*/\1/p')
   if [[ $(printf '%s\n' 3.25 "$version" | sort -V | head -n 1) != 3.25 ]]; then
@@ -73,9 +85,9 @@ prepare() {
       "Without presets, CMake 3.22 does: cmake -S . -B build/plain && cmake --build build/plain"
   fi
   mkdir -p build
-  cmake -P scripts/search_cccl.cmake >/dev/null 2>&1 && return 0
+  has_cccl && return 0
   say "No Thrust on this machine: taking $cccl_wheel into build/cccl"
-  python3 -m pip --version >/dev/null 2>&1 || install_packages python3-pip:
+  has_pip || install_packages python3-pip:
   fetch_wheel "$cccl_wheel" build/cccl && return 0
   say "No package index in reach: CMake will fetch CCCL from GitHub"
   install_packages git

@@ -96,12 +96,22 @@ TEMPLATE_LIST_TEST_CASE("shade reads a device_count when it runs", "[shade]", te
   });
 }
 
-TEST_CASE("a byte names 256 shaders", "[shade]") {
+TEST_CASE("a table may have 256 shaders, all of which a byte names", "[shade]") {
+  std::uint32_t const seed = test::run_seed();
+  CAPTURE(seed);
   std::uint32_t const n = 30011;
-  auto const ids = test::make_ids<std::uint8_t>(test::layout::descending, n, 256, 1);
+  auto const bytes = test::make_ids<std::uint8_t>(test::layout::descending, n, 256, seed);
+  auto const words = test::make_ids<std::uint16_t>(test::layout::random, n, 256, seed);
   ds::workspace scratch{thrust::cpp::par};
-  test::check_against_loop<256>(thrust::cpp::par, ds::bucket_then_dispatch<>{}, n, ids.data(),
-                                scratch);
+  // One schedule for each way to group and to dispatch; such a table takes seconds to compile.
+  auto const check = [&](auto schedule) {
+    test::check_against_loop<256>(thrust::cpp::par, schedule, n, bytes.data(), scratch);
+    test::check_against_loop<256>(thrust::cpp::par, schedule, n, words.data(), scratch);
+  };
+  check(ds::sort_then_dispatch<ds::implicit_serialization>{});
+  check(ds::bucket_then_dispatch<>{});
+  check(ds::local_sort_then_dispatch<>{});
+  check(ds::local_sort_then_dispatch<ds::bitonic>{});
 }
 
 TEST_CASE("waves of any size share a workspace, also after an error", "[shade]") {

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <deferred_shade/shade.hpp>
 #include <deferred_shade/shader_table.hpp>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -91,17 +90,14 @@ void check_schedule(Schedule const& schedule = {}) {
   check_id_type<std::uint8_t, 5>(exec, schedule, scratch, edge_sizes());
   check_id_type<std::int8_t, 5>(exec, schedule, scratch, some_sizes());
   check_id_type<std::uint16_t, 5>(exec, schedule, scratch, some_sizes());
-  check_id_type<std::int32_t, 33>(exec, schedule, scratch, edge_sizes());
+  check_id_type<std::int32_t, 9>(exec, schedule, scratch, edge_sizes());
   check_id_type<std::uint32_t, 5>(exec, schedule, scratch, some_sizes());
   check_id_type<std::uint8_t, 1>(exec, schedule, scratch, some_sizes());
 
   std::uint32_t const seed = run_seed();
   CAPTURE(seed);
   std::uint32_t const n = 20011;
-  auto const words = make_ids<std::uint16_t>(layout::random, n, 256, seed);
-  if constexpr (std::is_same_v<Backend, cpp>) {  // once: it takes seconds to compile
-    check_against_loop<256>(exec, schedule, n, words.data(), scratch);
-  }
+  auto const words = make_ids<std::uint16_t>(layout::random, n, 7, seed);
 
   // The renderer's own hit records, through an iterator.
   struct hit {
