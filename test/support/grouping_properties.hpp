@@ -15,7 +15,8 @@ namespace test {
 
 namespace ds = deferred_shade;
 
-/// Compares what `group(exec, n, ids, scratch)` returns with std::stable_sort.
+/// Compares what `group(exec, n, ids, scratch)` returns with a sort by (id, index), which is the
+/// stable sort by id.
 template <class Id, ds::shader_id Shaders, class Policy, class Group>
 void check_grouping_of(Policy const& exec, Group const& group) {
   ds::workspace scratch{exec};
@@ -31,8 +32,9 @@ void check_grouping_of(Policy const& exec, Group const& group) {
       expected.erase(std::remove_if(expected.begin(), expected.end(),
                                     [&](std::uint32_t i) { return id(i) >= Shaders; }),
                      expected.end());
-      std::stable_sort(expected.begin(), expected.end(),
-                       [&](std::uint32_t a, std::uint32_t b) { return id(a) < id(b); });
+      std::sort(expected.begin(), expected.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return id(a) != id(b) ? id(a) < id(b) : a < b;
+      });
 
       ds::grouping const result = group(exec, n, ids.data(), scratch);
       for (ds::shader_id k = 0; k <= Shaders; ++k) {
