@@ -10,6 +10,7 @@ cmake_minimum_required(VERSION 3.22)
 set(layers
   "version|config"
   "types|blocks"
+  "counts"
   "shader_table|workspace"
   "records"
   "grouping/(host|cuda)/.*"

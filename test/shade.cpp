@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <deferred_shade/shade.hpp>
 
+#include <thrust/iterator/counting_iterator.h>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -125,4 +126,50 @@ TEST_CASE("waves of any size share a workspace, also after an error", "[shade]")
                              ds::shader_table{counting_shader{&calls}}, scratch));
     }
   });
+}
+
+TEST_CASE("a wave of more than 1024 small blocks", "[shade]") {
+  // Beyond 16777216 requests blocks grow. A sum for each shader stands for the order within it.
+  ds::request_index const n = 16777216 + 12345;
+  auto const ids = thrust::make_transform_iterator(
+      thrust::counting_iterator<ds::request_index>(0),
+      [](ds::request_index i) { return static_cast<std::uint8_t>(i * 2654435761U >> 30); });
+  std::uint64_t expected[3] = {};
+  for (ds::request_index i = 0; i < n; ++i) {
+    if (ids[i] < 3) expected[ids[i]] = expected[ids[i]] * 3 + i;
+  }
+  std::uint64_t sums[3];
+  auto const add = [&sums](int id) {
+    return [sum = &sums[id]](ds::request_index i) { *sum = *sum * 3 + i; };
+  };
+  ds::workspace scratch{thrust::cpp::par};
+  auto const check = [&](auto schedule) {
+    std::fill(std::begin(sums), std::end(sums), std::uint64_t{0});
+    ds::shade(thrust::cpp::par, schedule, n, ids, ds::shader_table{add(0), add(1), add(2)},
+              scratch);
+    CHECK(std::equal(std::begin(sums), std::end(sums), std::begin(expected)));
+  };
+  check(ds::implicit_serialization{});
+  check(ds::compact_then_dispatch<>{});
+  check(ds::sort_then_dispatch<ds::implicit_serialization>{});
+  check(ds::bucket_then_dispatch<>{});
+  check(ds::local_sort_then_dispatch<>{});
+}
+
+TEST_CASE("the largest wave", "[.][shade]") {  // hidden: half a minute
+  std::size_t const n = ds::max_requests;
+  auto const ids = thrust::make_transform_iterator(
+      thrust::counting_iterator<ds::request_index>(0),
+      [](ds::request_index i) { return static_cast<std::uint8_t>(i % 3); });
+  std::uint64_t runs = 0;
+  std::uint64_t sum = 0;
+  auto const add = [&](ds::request_index i) {
+    ++runs;
+    sum += i;
+  };
+  ds::workspace scratch{thrust::cpp::par};
+  ds::shade(thrust::cpp::par, ds::local_sort_then_dispatch<>{}, n, ids,
+            ds::shader_table{add, add, add}, scratch);
+  CHECK(runs == n);
+  CHECK(sum == (n - 1) * (n / 2) + (n % 2) * (n - 1) / 2);
 }

@@ -68,3 +68,24 @@ TEST_CASE("a table holds lambdas and one shader twice", "[shader_table]") {
   table.run(1, 0);
   CHECK(calls == 2);
 }
+
+TEST_CASE("a shader may be over-aligned, empty, or without a default", "[shader_table]") {
+  struct alignas(64) aligned {
+    std::uintptr_t* address;
+    void operator()(ds::request_index) const { *address = reinterpret_cast<std::uintptr_t>(this); }
+  };
+  struct empty {
+    void operator()(ds::request_index) const {}
+  };
+  struct no_default {
+    explicit no_default(int* p) : calls(p) {}
+    int* calls;
+    void operator()(ds::request_index) const { ++*calls; }
+  };
+  std::uintptr_t address = 1;
+  int calls = 0;
+  ds::shader_table const table{empty{}, aligned{&address}, empty{}, no_default{&calls}, empty{}};
+  for (ds::shader_id id = 0; id < 6; ++id) table.run(id, 0);
+  CHECK(address % 64 == 0);
+  CHECK(calls == 1);
+}

@@ -105,6 +105,33 @@ TEMPLATE_LIST_TEST_CASE("efficiency and occurrences agree with the definition", 
   }
 }
 
+TEMPLATE_LIST_TEST_CASE("counts over many blocks are exact", "[statistics]", test::backends) {
+  std::uint32_t const n = 200003;
+  std::uint32_t const seed = test::run_seed();
+  CAPTURE(seed);
+  auto const ids = test::make_ids<std::uint8_t>(test::layout::coherent, n, 5, seed);
+  std::vector<double> const costs{1, 2, 4, 8, 16};
+  for (std::uint32_t const width : {32U, 1000U, 300000U}) {
+    ds::efficiency_model const model{costs.data(), 5, width};
+    CHECK_THAT(ds::heterogeneous_efficiency(TestType::policy(), n, ids.data(), model),
+               WithinRel(efficiency_by_definition(ids, costs, width), 1e-12));
+    std::vector<float> groups((n + width - 1) / width, -1.0F);
+    ds::group_efficiency(TestType::policy(), n, ids.data(), model, groups.data());
+    auto const last = ids.begin() + static_cast<std::ptrdiff_t>((groups.size() - 1) * width);
+    CHECK_THAT(
+        groups.back(),
+        WithinRel(static_cast<float>(efficiency_by_definition({last, ids.end()}, costs, width)),
+                  1e-6F));
+  }
+}
+
+TEST_CASE("statistics refuse counts that no wave has", "[statistics]") {
+  std::uint8_t const ids[1] = {0};
+  CHECK_THROWS_AS(ds::count_occurrences(thrust::cpp::par, -1, &ids[0], 1), std::invalid_argument);
+  CHECK_THROWS_AS(ds::count_occurrences(thrust::cpp::par, std::size_t{1} << 32, &ids[0], 1),
+                  std::length_error);
+}
+
 TEST_CASE("a group has at least one lane", "[statistics]") {
   std::uint8_t const ids[1] = {0};
   double const costs[1] = {1};

@@ -2,50 +2,27 @@
 #include <deferred_shade/workspace.hpp>
 
 #include <cstdint>
+#include <memory_resource>
 #include <new>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
 #include <vector>
 
 #include "catch.hpp"
 #include "support/allocation_count.hpp"
 #include "support/backends.hpp"
 #include "support/every_schedule.hpp"
+#include "support/ledger.hpp"
 #include "support/random_ids.hpp"
 
 namespace ds = deferred_shade;
 
 namespace {
 
-/// An allocator that counts, and that fails on demand.
-struct ledger {
-  std::size_t allocations = 0;
-  std::size_t live_bytes = 0;
-  std::size_t limit = static_cast<std::size_t>(-1);
-};
-
-template <class T>
-struct ledger_allocator {
-  using value_type = T;
-  ledger* book;
-
-  explicit ledger_allocator(ledger& l) : book(&l) {}
-  template <class U>
-  ledger_allocator(ledger_allocator<U> const& other) : book(other.book) {}
-
-  T* allocate(std::size_t n) {
-    if (n * sizeof(T) > book->limit) throw std::bad_alloc();
-    ++book->allocations;
-    book->live_bytes += n * sizeof(T);
-    return std::allocator<T>().allocate(n);
-  }
-  void deallocate(T* p, std::size_t n) {
-    book->live_bytes -= n * sizeof(T);
-    std::allocator<T>().deallocate(p, n);
-  }
-  template <class U>
-  bool operator==(ledger_allocator<U> const& other) const {
-    return book == other.book;
-  }
-};
+using test::ledger;
+using test::ledger_allocator;
 
 struct nothing {
   void operator()(ds::request_index) const {}
@@ -116,11 +93,77 @@ TEST_CASE("a workspace grows, never shrinks, and gives everything back", "[works
   CHECK(book.live_bytes == 0);
 }
 
+TEST_CASE("an allocator that cannot be assigned serves as well", "[workspace]") {
+  STATIC_REQUIRE(!std::is_copy_constructible_v<ds::workspace<>>);
+  STATIC_REQUIRE(!std::is_constructible_v<ds::workspace<>, std::string>);
+  std::pmr::monotonic_buffer_resource pool;
+  ds::workspace a{std::pmr::polymorphic_allocator<std::byte>(&pool)};
+  a.take(ds::elements<int>(1000));
+  std::size_t const grown = a.capacity();
+  ds::workspace<std::pmr::polymorphic_allocator<std::byte>> b;
+  b = std::move(a);
+  CHECK(b.capacity() == grown);
+}
+
+TEST_CASE("a workspace refuses sizes that no memory has", "[workspace]") {
+  ds::workspace<> scratch;
+  std::size_t const most = static_cast<std::size_t>(-1);
+  CHECK_THROWS_AS(ds::elements<double>(std::size_t{1} << 61), std::length_error);
+  CHECK_THROWS_AS(ds::elements<std::uint8_t>(most), std::length_error);
+  CHECK_THROWS_AS(scratch.reserve(most, 1), std::length_error);
+  CHECK_THROWS_AS(scratch.reserve(1, most), std::length_error);
+  CHECK(scratch.capacity() == 0);
+}
+
+TEST_CASE("what a wave takes does not fall when waves or tables grow", "[workspace]") {
+  // The sizes at which the number of blocks would fall: one more request, larger blocks.
+  std::mt19937_64 engine(test::run_seed());
+  CAPTURE(test::run_seed());
+  for (int trial = 0; trial < 20000; ++trial) {
+    std::size_t const n = engine() % (std::size_t{1} << (1 + engine() % 32));
+    std::size_t const shaders = 1 + engine() % (std::size_t{1} << (1 + engine() % 20));
+    std::size_t const fewer = engine() % (n + 1);
+    std::size_t const smaller = 1 + engine() % shaders;
+    ds::detail::block_partition const blocks(n, shaders);
+    REQUIRE(blocks.count() <= blocks.max_count(n, shaders));
+    REQUIRE(blocks.max_count(fewer, shaders) <= blocks.max_count(n, shaders));
+    using scratch = ds::workspace<>;
+    REQUIRE(scratch::bytes_for(fewer, smaller) <= scratch::bytes_for(n, shaders));
+    std::size_t const counters = (blocks.max_count(n, shaders) + 1) * (shaders + 1) * 4;
+    std::size_t const key = shaders < 256 ? 1 : shaders < 65536 ? 2 : 4;
+    REQUIRE(scratch::bytes_for(n, shaders) >= counters + n * (2 * key + 12));
+  }
+}
+
+TEST_CASE("a warm workspace serves a wave of fewer requests in more blocks", "[workspace]") {
+  ledger book;
+  ds::workspace scratch{ledger_allocator<std::byte>(book)};
+  ds::request_index const n = 1024 * 16384;
+  std::vector<std::uint16_t> const ids(n + 1, 3);
+  ds::group_by_bucket<255>(thrust::cpp::par, n + 1, ids.data(), scratch);
+  ds::group_by_bucket<255>(thrust::cpp::par, n, ids.data(), scratch);
+  CHECK(book.allocations == 1);
+}
+
+TEST_CASE("a device_count is worth its maximum in memory", "[workspace]") {
+  ledger book;
+  ds::workspace scratch{ledger_allocator<std::byte>(book)};
+  std::uint32_t count = 10;
+  std::vector<std::uint8_t> const ids(100000, 0);
+  for (std::uint32_t const next : {10U, 1000U, 100000U}) {
+    count = next;
+    ds::shade(thrust::cpp::par, ds::sort_then_dispatch<>{}, ds::device_count{&count, ids.size()},
+              ids.data(), ds::shader_table{nothing{}}, scratch);
+  }
+  CHECK(book.allocations == 1);
+}
+
 TEST_CASE("a workspace stays usable when its allocator fails", "[workspace]") {
   ledger book;
   ds::workspace scratch{ledger_allocator<std::byte>(book)};
   std::vector<std::uint16_t> const ids(50000, 1);
-  book.limit = 1000;
+  scratch.reserve(10, 2);  // and it fails when it grows
+  book.limit = 10000;
   int calls = 0;
   auto const count = [&calls](ds::request_index) { ++calls; };
   auto const shade = [&] {
@@ -129,6 +172,7 @@ TEST_CASE("a workspace stays usable when its allocator fails", "[workspace]") {
   };
   CHECK_THROWS_AS(shade(), std::bad_alloc);
   CHECK(calls == 0);
+  CHECK(scratch.capacity() == 0);
   CHECK(book.live_bytes == 0);
   book.limit = static_cast<std::size_t>(-1);
   shade();
@@ -168,7 +212,10 @@ TEST_CASE("reserve is enough for keys of two bytes", "[workspace]") {
 
 TEMPLATE_LIST_TEST_CASE("nothing allocates once the workspace is warm", "[workspace]",
                         test::backends) {
-  if (!test::counts_allocations) return;
+  if (!test::counts_allocations) {
+    WARN("skipped: this build does not count allocations");
+    return;
+  }
 #if defined(__clang__) && defined(DEFERRED_SHADE_TEST_OMP)
   // LLVM's OpenMP allocates for every parallel region, libgomp does not.
   if (std::is_same_v<TestType, test::omp>) return;

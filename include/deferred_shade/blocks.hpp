@@ -10,18 +10,26 @@
 
 namespace deferred_shade::detail {
 
+static_assert(sizeof(std::size_t) >= 8, "sizes of waves are computed in 64 bits");
+
 /// A wave of n requests cut into blocks of equal size, the last one excepted; one worker owns a
 /// block at a time.
 ///
-/// Blocks are large enough that a row of counters per block, `shaders` + 1 of them, is a sixteenth
-/// of the ids that it counts, and there are never more than 1024 of them.
+/// Blocks are large enough that a row of counters per block, `shaders` + 1 of them, is at most a
+/// sixteenth as many as the requests that it counts, and there are never more than 1024 of them.
+/// Their size is a multiple of `granule`; of 64, so that blocks of one array share no cache line.
 class block_partition {
  public:
-  constexpr block_partition(std::size_t n, std::size_t shaders) noexcept
+  constexpr block_partition(std::size_t n, std::size_t shaders, std::size_t granule = 64) noexcept
       : n_(n),
-        size_((std::max({std::size_t{16384}, 16 * (shaders + 1), (n + 1023) / 1024}) + 63) / 64 *
-              64),
+        size_(multiple_of(granule, std::max(least_size(shaders), (n + 1023) / 1024))),
         count_((n + size_ - 1) / size_) {}
+
+  /// A bound of count(), for any granule, that does not fall when n grows: what to allocate for.
+  static constexpr std::size_t max_count(std::size_t n, std::size_t shaders) noexcept {
+    std::size_t const least = least_size(shaders);
+    return std::min(std::size_t{1024}, (n + least - 1) / least);
+  }
 
   constexpr std::size_t size() const noexcept { return size_; }
   constexpr std::size_t count() const noexcept { return count_; }
@@ -31,6 +39,13 @@ class block_partition {
   }
 
  private:
+  static constexpr std::size_t multiple_of(std::size_t granule, std::size_t x) noexcept {
+    return (x + granule - 1) / granule * granule;
+  }
+  static constexpr std::size_t least_size(std::size_t shaders) noexcept {
+    return multiple_of(64, std::max(std::size_t{16384}, 16 * (shaders + 1)));
+  }
+
   std::size_t n_;
   std::size_t size_;
   std::size_t count_;

@@ -59,7 +59,8 @@ struct record_shader {
   }
 };
 
-/// A table of record shaders that share one source and one sink.
+/// A table of record shaders that share one source and one sink, both of which are copied with
+/// every shader: pointers, iterators or functions, not containers.
 ///
 ///     struct matte { rgb operator()(hit const& h) const; };
 ///     auto shaders = deferred_shade::record_shaders(hits.data(), radiance.data(), matte{},

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <thrust/system/cpp/execution_policy.h>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
 
+#include <deferred_shade/counts.hpp>
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
@@ -12,45 +14,21 @@
 namespace deferred_shade {
 namespace detail {
 
-/// `n` as a count of requests; throws what `shade` promises.
+template <class T>
+inline constexpr bool is_device_count = false;
 template <class Integer>
-request_index checked_count(Integer n) {
-  static_assert(std::is_integral_v<Integer> && !std::is_same_v<Integer, bool>,
-                "n is an integer or a device_count");
-  if constexpr (std::is_signed_v<Integer>) {
-    if (n < 0) {
-      throw std::invalid_argument("deferred_shade::shade: n is " + std::to_string(n) +
-                                  ", and a number of requests is not negative");
-    }
-  }
-  if (static_cast<std::make_unsigned_t<Integer>>(n) > max_requests) {
-    throw std::length_error("deferred_shade::shade: n is " + std::to_string(n) +
-                            ", and a wave holds at most " + std::to_string(max_requests) +
-                            " requests: their indices have 32 bits");
-  }
-  return static_cast<request_index>(n);
-}
+inline constexpr bool is_device_count<device_count<Integer>> = true;
 
-template <class Integer>
-request_index checked_count(device_count<Integer> n) {
-  if (n.pointer == nullptr) {
-    throw std::invalid_argument("deferred_shade::shade: the pointer of device_count is null");
-  }
-  request_index const maximum = checked_count(n.maximum);
-  request_index const count = checked_count(*n.pointer);
-  if (count > maximum) {
-    throw std::length_error("deferred_shade::shade: device_count points at " +
-                            std::to_string(count) + " requests, above its maximum of " +
-                            std::to_string(maximum));
-  }
-  return count;
-}
+// Thrust's systems for CPUs, cpp, omp and tbb, share a base; so does thrust::seq.
+template <class Policy>
+std::true_type runs_on_host(thrust::system::detail::sequential::execution_policy<Policy> const&);
+std::false_type runs_on_host(...);
 
 }  // namespace detail
 
 /// Runs every request through its shader, exactly once, in the order that `schedule` makes.
 ///
-/// - `exec`: a Thrust execution policy, `thrust::cpp::par`, `thrust::omp::par` or
+/// - `exec`: a Thrust execution policy for a CPU, `thrust::cpp::par`, `thrust::omp::par` or
 ///   `thrust::tbb::par`. Returns when all shaders have run.
 /// - `schedule`: one of this library, or any function object that is called with the arguments
 ///   below, `n` as a request_index.
@@ -62,8 +40,9 @@ request_index checked_count(device_count<Integer> n) {
 ///   has seen, or reserved for, as many requests and shaders.
 ///
 /// Within one shader, requests are started in the order of their indices wherever one worker runs
-/// them. The library does no arithmetic on the renderer's data: what a shader writes for a request
-/// does not depend on the schedule, the policy, or the number of workers.
+/// them. The library does no arithmetic on the renderer's data: what a shader writes for its own
+/// request does not depend on the schedule, the policy, or the number of workers, as long as the
+/// compiler makes the same arithmetic of the shader everywhere (docs/guide.md, "What is promised").
 ///
 /// Throws std::invalid_argument where `n` is negative or a pointer is null, std::length_error where
 /// `n` exceeds `max_requests` or a device_count its maximum, and what the workspace's allocator
@@ -71,7 +50,11 @@ request_index checked_count(device_count<Integer> n) {
 template <class Policy, class Schedule, class Count, class Ids, class... Shaders, class Allocator>
 void shade(Policy const& exec, Schedule const& schedule, Count n, Ids ids,
            shader_table<Shaders...> const& shaders, workspace<Allocator>& scratch) {
-  request_index const count = detail::checked_count(n);
+  static_assert(decltype(detail::runs_on_host(exec))::value,
+                "this version runs on Thrust's cpp, omp and tbb policies");
+  request_index const count = detail::checked_count("shade", n);
+  // Sized by the maximum, so that no later count allocates.
+  if constexpr (detail::is_device_count<Count>) scratch.reserve(n.maximum, sizeof...(Shaders));
   if (count == 0) return;
   if constexpr (std::is_pointer_v<Ids>) {
     if (ids == nullptr) {

@@ -6,13 +6,23 @@
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
-#include <utility>
+#include <string>
 #include <vector>
 
 #include <deferred_shade/blocks.hpp>
+#include <deferred_shade/counts.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade {
+namespace detail {
+
+inline void check_width(std::string const& caller, std::uint32_t width) {
+  if (width == 0) {
+    throw std::invalid_argument("deferred_shade::" + caller + ": a group of width 0 has no lanes");
+  }
+}
+
+}  // namespace detail
 
 /// What a group of lanes pays for divergence: `costs[k]` is the cost of shader k, in any unit, and
 /// `width` is the number of consecutive requests that share a program counter.
@@ -33,38 +43,35 @@ struct occurrences {
 /// Counts shaders in `n` requests, in groups of `width`; the last group may be incomplete.
 ///
 /// For reports, not for every wave: allocates, and returns to the host. Throws
-/// std::invalid_argument where `width` is 0.
-template <class Policy, class Ids>
-occurrences count_occurrences(Policy const& exec, request_index n, Ids ids, shader_id shaders,
+/// std::invalid_argument where `width` is 0 or `n` negative, std::length_error where `n` exceeds
+/// `max_requests`, and std::bad_alloc.
+template <class Policy, class Count, class Ids>
+occurrences count_occurrences(Policy const& exec, Count n, Ids ids, shader_id shaders,
                               std::uint32_t width = 32) {
-  if (width == 0) {
-    throw std::invalid_argument("deferred_shade::count_occurrences: width is 0");
-  }
-  // A block is a whole number of groups; each has its own counters, so that the sums are exact and
-  // independent of who owns which block.
-  std::size_t const all_groups = (std::size_t{n} + width - 1) / width;
-  detail::block_partition const blocks(all_groups, shaders);
+  std::size_t const size = detail::checked_count("count_occurrences", n);
+  detail::check_width("count_occurrences", width);
+  // Every block has counters of its own and whole groups, so that the sums are exact and do not
+  // depend on who owns which block.
+  detail::block_partition const blocks(size, shaders, width);
   std::size_t const columns = std::size_t{shaders} + 1;
-  std::vector<occurrences> partial(blocks.count());
-  detail::for_each_block(exec, blocks, [=, &partial](std::size_t b) {
-    occurrences count{std::vector<std::uint64_t>(columns), std::vector<std::uint64_t>(columns)};
-    std::vector<std::uint64_t> last_group(columns);  // one more than the group; 0: none yet
-    for (std::size_t g = blocks.begin(b); g < blocks.end(b); ++g) {
-      std::size_t const end = std::min(std::size_t{n}, (g + 1) * width);
-      for (std::size_t i = g * width; i < end; ++i) {
-        shader_id const k = shader_of(ids, static_cast<request_index>(i), shaders);
-        ++count.requests[k];
-        if (last_group[k] != g + 1) ++count.groups[k];
-        last_group[k] = g + 1;
-      }
+  std::vector<std::uint64_t> requests(blocks.count() * columns);
+  std::vector<std::uint64_t> groups(blocks.count() * columns);
+  std::vector<std::uint64_t> last_group(blocks.count() * columns);  // its number + 1; 0: none yet
+  detail::for_each_block(exec, blocks, [&](std::size_t b) {
+    std::size_t const row = b * columns;
+    for (std::size_t i = blocks.begin(b); i < blocks.end(b); ++i) {
+      std::size_t const k = row + shader_of(ids, static_cast<request_index>(i), shaders);
+      std::uint64_t const group = i / width + 1;
+      ++requests[k];
+      if (last_group[k] != group) ++groups[k];
+      last_group[k] = group;
     }
-    partial[b] = std::move(count);
   });
 
   occurrences total{std::vector<std::uint64_t>(columns), std::vector<std::uint64_t>(shaders)};
-  for (occurrences const& count : partial) {
-    for (std::size_t k = 0; k < columns; ++k) total.requests[k] += count.requests[k];
-    for (std::size_t k = 0; k < shaders; ++k) total.groups[k] += count.groups[k];
+  for (std::size_t b = 0; b < blocks.count(); ++b) {
+    for (std::size_t k = 0; k < columns; ++k) total.requests[k] += requests[b * columns + k];
+    for (std::size_t k = 0; k < shaders; ++k) total.groups[k] += groups[b * columns + k];
   }
   return total;
 }
@@ -79,9 +86,9 @@ occurrences count_occurrences(Policy const& exec, request_index n, Ids ids, shad
 /// without divergence; a wave in which no shader runs wastes nothing and has 1, too. Lanes whose id
 /// names no shader are idle.
 ///
-/// For reports: allocates. Throws std::invalid_argument where the width is 0.
-template <class Policy, class Ids>
-double heterogeneous_efficiency(Policy const& exec, request_index n, Ids ids,
+/// For reports: allocates, and throws what count_occurrences throws.
+template <class Policy, class Count, class Ids>
+double heterogeneous_efficiency(Policy const& exec, Count n, Ids ids,
                                 efficiency_model const& model) {
   occurrences const count = count_occurrences(exec, n, ids, model.shaders, model.width);
   double useful = 0;
@@ -96,30 +103,29 @@ double heterogeneous_efficiency(Policy const& exec, request_index n, Ids ids,
 /// The heterogeneous efficiency of every group on its own: writes ceil(n / width) values to
 /// `efficiency`, NaN for a group in which no shader runs.
 ///
-/// Throws std::invalid_argument where the width is 0.
-template <class Policy, class Ids>
-void group_efficiency(Policy const& exec, request_index n, Ids ids, efficiency_model const& model,
+/// Allocates, and throws what count_occurrences throws.
+template <class Policy, class Count, class Ids>
+void group_efficiency(Policy const& exec, Count n, Ids ids, efficiency_model const& model,
                       float* efficiency) {
-  if (model.width == 0) {
-    throw std::invalid_argument("deferred_shade::group_efficiency: the width is 0");
-  }
-  std::size_t const groups = (std::size_t{n} + model.width - 1) / model.width;
-  detail::block_partition const blocks(groups, 0);
-  detail::for_each_block(exec, blocks, [=](std::size_t b) {
-    std::vector<std::uint64_t> last_group(std::size_t{model.shaders} + 1);
-    for (std::size_t g = blocks.begin(b); g < blocks.end(b); ++g) {
+  std::size_t const size = detail::checked_count("group_efficiency", n);
+  detail::check_width("group_efficiency", model.width);
+  detail::block_partition const blocks(size, model.shaders, model.width);
+  std::vector<std::size_t> last_group(blocks.count() * model.shaders);
+  detail::for_each_block(exec, blocks, [&](std::size_t b) {
+    std::size_t* const last = last_group.data() + b * model.shaders;
+    for (std::size_t first = blocks.begin(b); first < blocks.end(b); first += model.width) {
+      std::size_t const group = first / model.width;
       double useful = 0;
       double held = 0;
-      std::size_t const end = std::min(std::size_t{n}, (g + 1) * model.width);
-      for (std::size_t i = g * model.width; i < end; ++i) {
+      for (std::size_t i = first; i < std::min(size, first + model.width); ++i) {
         shader_id const k = shader_of(ids, static_cast<request_index>(i), model.shaders);
         if (k == model.shaders) continue;
         useful += model.costs[k];
-        if (last_group[k] != g + 1) held += model.costs[k];
-        last_group[k] = g + 1;
+        if (last[k] != group + 1) held += model.costs[k];
+        last[k] = group + 1;
       }
-      efficiency[g] = held > 0 ? static_cast<float>(useful / (model.width * held))
-                               : std::numeric_limits<float>::quiet_NaN();
+      efficiency[group] = held > 0 ? static_cast<float>(useful / (model.width * held))
+                                   : std::numeric_limits<float>::quiet_NaN();
     }
   });
 }

@@ -34,8 +34,9 @@ device_count(Integer*, std::size_t) -> device_count<std::remove_const_t<Integer>
 
 /// The requests of a wave, grouped by shader: a view of memory that a workspace owns.
 ///
-/// `permutation[offsets[k]]` to `permutation[offsets[k + 1] - 1]` are the requests of shader k in
-/// the order in which they came; `offsets` holds one entry more than the table has shaders. What
+/// Both arrays lie where the execution policy runs: a host function may read them on cpp, omp and
+/// tbb. `permutation[offsets[k]]` to `permutation[offsets[k + 1] - 1]` are the requests of shader k
+/// in the order in which they came; `offsets` holds one entry more than the table has shaders. What
 /// `permutation` holds from `offsets[shaders]` on is unspecified.
 struct grouping {
   request_index const* permutation;

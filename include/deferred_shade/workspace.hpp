@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <thrust/type_traits/is_execution_policy.h>
+#include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -12,12 +17,19 @@
 
 namespace deferred_shade {
 
-/// A request to a workspace for an array of `count` elements of a trivial type.
+/// A request to a workspace for an array of `count` elements of a trivial type. Throws
+/// std::length_error where that is more than a sixteenth of the address space.
 template <class T>
 struct elements {
   static_assert(std::is_trivial_v<T>,
                 "a workspace holds trivial types, which it leaves uninitialised");
-  explicit elements(std::size_t n) noexcept : count(n) {}
+  static_assert(alignof(T) <= 128, "a workspace aligns to 128 bytes");
+  explicit elements(std::size_t n) : count(n) {
+    if (n > static_cast<std::size_t>(-1) / 16 / sizeof(T)) {
+      throw std::length_error("deferred_shade::elements: an array of " + std::to_string(n) +
+                              " elements has no room in memory");
+    }
+  }
   std::size_t count;
 };
 
@@ -40,37 +52,48 @@ class workspace {
   workspace() = default;
   explicit workspace(Allocator const& allocator) : allocator_(allocator) {}
 
-  /// A workspace for the machine that `policy`, a Thrust execution policy, runs on.
-  template <class Policy,
-            class = std::enable_if_t<std::is_class_v<Policy> &&
-                                     !std::is_convertible_v<Policy const&, Allocator>>>
+  /// A workspace for the machine that a Thrust execution policy runs on; what else the policy
+  /// holds, an allocator of its own say, is not used.
+  template <class Policy, class = std::enable_if_t<thrust::is_execution_policy<Policy>::value &&
+                                                   std::is_default_constructible_v<Allocator>>>
   explicit workspace(Policy const&) {}
 
   workspace(workspace&& other) noexcept
       : allocator_(std::move(other.allocator_)),
         data_(std::exchange(other.data_, {})),
         lines_(std::exchange(other.lines_, 0)) {}
-  workspace& operator=(workspace other) noexcept {
-    std::swap(allocator_, other.allocator_);
-    std::swap(data_, other.data_);
-    std::swap(lines_, other.lines_);
+  // Not by swap: some allocators, those of std::pmr for example, cannot be assigned.
+  workspace& operator=(workspace&& other) noexcept {
+    if (this != &other) {
+      this->~workspace();
+      ::new (static_cast<void*>(this)) workspace(std::move(other));
+    }
     return *this;
   }
   ~workspace() { release(); }
 
-  /// Grows to what any schedule of the library takes for `n` requests over `shaders` shaders.
-  /// Throws what the allocator throws.
-  void reserve(std::size_t n, std::size_t shaders) { grow(bytes_for(n, shaders)); }
+  /// Grows to what any schedule of the library takes for waves of up to `n` requests over tables of
+  /// up to `shaders` shaders. Throws std::length_error where no wave has so many, and what the
+  /// allocator throws.
+  void reserve(std::size_t n, std::size_t shaders) {
+    if (n > max_requests || shaders > max_requests) {
+      throw std::length_error("deferred_shade::workspace::reserve: n is " + std::to_string(n) +
+                              " and shaders is " + std::to_string(shaders) + ", at most " +
+                              std::to_string(max_requests) + " are possible");
+    }
+    grow(bytes_for(n, shaders));
+  }
 
   /// The bytes that `reserve(n, shaders)` makes sure of: what `sort_then_dispatch` takes, since no
   /// other schedule takes more. With fewer than 256 shaders it is about 14 bytes per request.
   static constexpr std::size_t bytes_for(std::size_t n, std::size_t shaders) noexcept {
-    detail::block_partition const blocks(n, shaders);
     std::size_t const key = shaders <= 0xff ? 1 : shaders <= 0xffff ? 2 : 4;
-    std::size_t const requests =
-        (n + sizeof(line)) * (2 * (key + sizeof(request_index)) + sizeof(request_index));
-    std::size_t const counters = (blocks.count() + 1) * (shaders + 2) * sizeof(request_index);
-    return requests + counters + 6 * sizeof(line);
+    std::size_t const per_request = 2 * (key + sizeof(request_index)) + sizeof(request_index);
+    // Larger tables have fewer blocks: their counters are at most n / 16 and one row, nearly.
+    std::size_t const few = std::min(shaders, std::size_t{1023});
+    std::size_t const counters = (detail::block_partition::max_count(n, 0) + 1) * (few + 2) +
+                                 (shaders > few ? n / 16 + 2 * shaders + 4 : 0);
+    return (n + sizeof(line)) * per_request + counters * sizeof(request_index) + 6 * sizeof(line);
   }
 
   /// The bytes held.

@@ -27,11 +27,23 @@ bool const test::counts_allocations = true;
 
 // glibc lets a program replace malloc; everything that operator new hands out comes through here.
 extern "C" void* __libc_malloc(std::size_t);
+extern "C" void* __libc_calloc(std::size_t, std::size_t);
+extern "C" void* __libc_realloc(void*, std::size_t);
 extern "C" void* __libc_memalign(std::size_t, std::size_t);
 
 extern "C" void* malloc(std::size_t size) noexcept {
   ++calls;
   return __libc_malloc(size);
+}
+
+extern "C" void* calloc(std::size_t count, std::size_t size) noexcept {
+  ++calls;
+  return __libc_calloc(count, size);
+}
+
+extern "C" void* realloc(void* block, std::size_t size) noexcept {
+  ++calls;
+  return __libc_realloc(block, size);
 }
 
 extern "C" void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {

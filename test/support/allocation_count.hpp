@@ -9,7 +9,8 @@ namespace test {
 /// allocator of its own.
 extern bool const counts_allocations;
 
-/// The calls of malloc, operator new included, in this process so far.
+/// The calls of malloc, calloc, realloc and aligned_alloc, operator new included, in this process
+/// so far.
 std::size_t allocations();
 
 }  // namespace test

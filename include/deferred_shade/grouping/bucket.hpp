@@ -44,9 +44,9 @@ grouping group_by_bucket(Policy const& exec, request_index n, Ids ids,
                          workspace<Allocator>& scratch) {
   detail::block_partition const blocks(n, Shaders);
   constexpr shader_id columns = Shaders + 1;
-  auto const [permutation, counts, offsets] =
-      scratch.take(elements<request_index>(n), elements<std::uint32_t>(blocks.count() * columns),
-                   elements<request_index>(columns));
+  auto const [permutation, counts, offsets] = scratch.take(
+      elements<request_index>(n), elements<std::uint32_t>(blocks.max_count(n, Shaders) * columns),
+      elements<request_index>(columns));
 
   detail::for_each_block(exec, blocks, [=, counts = counts](std::size_t b) {
     detail::count_block<Shaders>(ids, blocks.begin(b), blocks.end(b), counts + b * columns);

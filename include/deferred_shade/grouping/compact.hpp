@@ -26,9 +26,9 @@ template <shader_id Shaders, class Policy, class Ids, class Allocator>
 grouping group_by_compaction(Policy const& exec, request_index n, Ids ids,
                              workspace<Allocator>& scratch) {
   detail::block_partition const blocks(n, Shaders);
-  auto const [permutation, counts, offsets] =
-      scratch.take(elements<request_index>(n), elements<std::uint32_t>(blocks.count() + 1),
-                   elements<request_index>(Shaders + 1));
+  auto const [permutation, counts, offsets] = scratch.take(
+      elements<request_index>(n), elements<std::uint32_t>(blocks.max_count(n, Shaders) + 1),
+      elements<request_index>(Shaders + 1));
   auto const requests = [blocks](std::size_t b) {
     using iterator = thrust::counting_iterator<request_index>;
     return std::pair(iterator(static_cast<request_index>(blocks.begin(b))),

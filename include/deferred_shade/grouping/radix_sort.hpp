@@ -53,6 +53,9 @@ class arena {
 /// scan over the lengths of the runs gives each run its place, and the block copies its runs there.
 /// (Thrust's own parallel sort on a CPU allocates for every call and merges block by block.)
 ///
+/// For two-byte keys and blocks of 32768 requests or more, Thrust takes 512 KiB of a worker's
+/// stack.
+///
 /// `ids` is a random-access iterator of `n` ids. The result lives in `scratch` until its next use.
 template <shader_id Shaders, class Policy, class Ids, class Allocator>
 grouping group_by_radix_sort(Policy const& exec, request_index n, Ids ids,
@@ -62,10 +65,11 @@ grouping group_by_radix_sort(Policy const& exec, request_index n, Ids ids,
   constexpr shader_id columns = Shaders + 1;
   constexpr std::size_t pair_size = sizeof(key) + sizeof(request_index);
   std::size_t const padded = (std::size_t{n} + 63) / 64 * 64;
-  auto const [permutation, keys, indices, temporary, counts, offsets] = scratch.take(
-      elements<request_index>(n), elements<key>(n), elements<request_index>(n),
-      elements<std::byte>(padded * pair_size), elements<std::uint32_t>(blocks.count() * columns),
-      elements<request_index>(columns));
+  auto const [permutation, keys, indices, temporary, counts, offsets] =
+      scratch.take(elements<request_index>(n), elements<key>(n), elements<request_index>(n),
+                   elements<std::byte>(padded * pair_size),
+                   elements<std::uint32_t>(blocks.max_count(n, Shaders) * columns),
+                   elements<request_index>(columns));
 
   detail::for_each_block(
       exec, blocks,

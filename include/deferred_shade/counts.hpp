@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+#include <deferred_shade/types.hpp>
+
+namespace deferred_shade::detail {
+
+/// `n` as a count of requests, for the function that `caller` names. Throws std::invalid_argument
+/// where `n` is negative, std::length_error where no wave has so many.
+template <class Integer>
+request_index checked_count(std::string const& caller, Integer n) {
+  static_assert(std::is_integral_v<Integer> && !std::is_same_v<Integer, bool>,
+                "n is an integer or a device_count");
+  if constexpr (std::is_signed_v<Integer>) {
+    if (n < 0) {
+      throw std::invalid_argument("deferred_shade::" + caller + ": n is " + std::to_string(n) +
+                                  ", and a number of requests is not negative");
+    }
+  }
+  if (static_cast<std::make_unsigned_t<Integer>>(n) > max_requests) {
+    throw std::length_error("deferred_shade::" + caller + ": n is " + std::to_string(n) +
+                            ", and a wave holds at most " + std::to_string(max_requests) +
+                            " requests: their indices have 32 bits");
+  }
+  return static_cast<request_index>(n);
+}
+
+/// The count that `n` points at; std::invalid_argument where it points nowhere, std::length_error
+/// where the count is above its maximum.
+template <class Integer>
+request_index checked_count(std::string const& caller, device_count<Integer> n) {
+  if (n.pointer == nullptr) {
+    throw std::invalid_argument("deferred_shade::" + caller +
+                                ": the pointer of device_count is null");
+  }
+  request_index const maximum = checked_count(caller, n.maximum);
+  request_index const count = checked_count(caller, *n.pointer);
+  if (count > maximum) {
+    throw std::length_error("deferred_shade::" + caller + ": device_count points at " +
+                            std::to_string(count) + " requests, above its maximum of " +
+                            std::to_string(maximum));
+  }
+  return count;
+}
+
+}  // namespace deferred_shade::detail
