@@ -128,7 +128,8 @@ TEST_CASE("waves of any size share a workspace, also after an error", "[shade]")
   });
 }
 
-TEST_CASE("a wave of more than 1024 small blocks", "[shade]") {
+// Hidden, and run by name: they take their time, and a sanitizer many times as long.
+TEST_CASE("a wave of more than 1024 small blocks", "[.][large]") {
   // Beyond 16777216 requests blocks grow. A sum for each shader stands for the order within it.
   ds::request_index const n = 16777216 + 12345;
   auto const ids = thrust::make_transform_iterator(
@@ -156,7 +157,7 @@ TEST_CASE("a wave of more than 1024 small blocks", "[shade]") {
   check(ds::local_sort_then_dispatch<>{});
 }
 
-TEST_CASE("the largest wave", "[.][shade]") {  // hidden: half a minute
+TEST_CASE("the largest wave", "[.][large]") {
   std::size_t const n = ds::max_requests;
   auto const ids = thrust::make_transform_iterator(
       thrust::counting_iterator<ds::request_index>(0),
