@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Also the tests of counts.hpp, whose checks `shade` makes; statistics.cpp has the others.
 #include <deferred_shade/shade.hpp>
 
 #include <thrust/iterator/counting_iterator.h>

@@ -132,4 +132,18 @@ void check_stable(Schedule const& schedule = {}) {
   for (std::uint32_t id = 0; id < 3; ++id) CHECK(order[id] == expected[id]);
 }
 
+/// A dispatch runs a grouping: every request of a segment through the segment's shader, nothing for
+/// an empty segment, and nothing that stands behind the last one.
+template <class Backend, class Dispatch>
+void check_dispatch(Dispatch const& dispatch = {}) {
+  ds::request_index const permutation[] = {4, 0, 3, 1, 2};
+  ds::request_index const offsets[] = {0, 0, 2, 2, 4, 4};
+  int seen[5] = {-1, -1, -1, -1, -1};
+  auto const note = [&seen](int id) { return [&seen, id](ds::request_index i) { seen[i] = id; }; };
+  dispatch(Backend::policy(), ds::grouping{permutation, offsets},
+           ds::shader_table{note(0), note(1), note(2), note(3), note(4)});
+  int const expected[] = {1, 3, -1, 3, 1};
+  for (int i = 0; i < 5; ++i) CHECK(seen[i] == expected[i]);
+}
+
 }  // namespace test
