@@ -29,15 +29,22 @@ request_index checked_count(std::string const& caller, Integer n) {
   return static_cast<request_index>(n);
 }
 
-/// The count that `n` points at; std::invalid_argument where it points nowhere, std::length_error
-/// where the count is above its maximum.
+/// The maximum of `n`; std::invalid_argument where it points nowhere, std::length_error where no
+/// wave has so many.
 template <class Integer>
-request_index checked_count(std::string const& caller, device_count<Integer> n) {
+request_index checked_maximum(std::string const& caller, device_count<Integer> n) {
   if (n.pointer == nullptr) {
     throw std::invalid_argument("deferred_shade::" + caller +
                                 ": the pointer of device_count is null");
   }
-  request_index const maximum = checked_count(caller, n.maximum);
+  return checked_count(caller, n.maximum);
+}
+
+/// The count that `n` points at; std::invalid_argument where it points nowhere, std::length_error
+/// where the count is above its maximum.
+template <class Integer>
+request_index checked_count(std::string const& caller, device_count<Integer> n) {
+  request_index const maximum = checked_maximum(caller, n);
   request_index const count = checked_count(caller, *n.pointer);
   if (count > maximum) {
     throw std::length_error("deferred_shade::" + caller + ": device_count points at " +

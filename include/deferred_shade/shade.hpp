@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <thrust/system/cpp/execution_policy.h>
 #include <stdexcept>
-#include <string>
 #include <type_traits>
 
 #include <deferred_shade/counts.hpp>
 #include <deferred_shade/shader_table.hpp>
+#include <deferred_shade/system.hpp>
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
 
@@ -19,19 +18,34 @@ inline constexpr bool is_device_count = false;
 template <class Integer>
 inline constexpr bool is_device_count<device_count<Integer>> = true;
 
-// Thrust's systems for CPUs, cpp, omp and tbb, share a base; so does thrust::seq.
-template <class Policy>
-std::true_type runs_on_host(thrust::system::detail::sequential::execution_policy<Policy> const&);
-std::false_type runs_on_host(...);
+inline bool is_empty(request_index n) { return n == 0; }
+template <class Integer>
+bool is_empty(device_count<Integer> n) {
+  return n.maximum == 0;
+}
+
+// What a schedule is given as the number of requests: the number itself where the host sees it.
+template <class System, class Count>
+auto wave_size(System, Count n) {
+  if constexpr (is_device_count<Count> && std::is_same_v<System, cuda_system>) {
+    checked_maximum("shade", n);
+    return n;
+  } else {
+    return checked_count("shade", n);
+  }
+}
 
 }  // namespace detail
 
 /// Runs every request through its shader, exactly once, in the order that `schedule` makes.
 ///
-/// - `exec`: a Thrust execution policy for a CPU, `thrust::cpp::par`, `thrust::omp::par` or
-///   `thrust::tbb::par`. Returns when all shaders have run.
+/// - `exec`: a Thrust execution policy. With `thrust::cpp::par`, `thrust::omp::par` and
+///   `thrust::tbb::par`, returns when all shaders have run. With a policy for CUDA,
+///   `thrust::cuda::par` or `thrust::cuda::par_nosync` on any stream, everything goes to that
+///   stream and nothing waits for it, so that the call can be captured into a CUDA graph once
+///   `scratch` is large enough.
 /// - `schedule`: one of this library, or any function object that is called with the arguments
-///   below, `n` as a request_index.
+///   below, `n` as a request_index; on CUDA a device_count stays one.
 /// - `n`: the number of requests, an integer or a device_count.
 /// - `ids`: a random-access iterator over the shader id of each request, an integer or enumeration
 ///   of 8 to 32 bits. It is read more than once. An id that the table does not have leaves its
@@ -45,21 +59,24 @@ std::false_type runs_on_host(...);
 /// compiler makes the same arithmetic of the shader everywhere (docs/guide.md, "What is promised").
 ///
 /// Throws std::invalid_argument where `n` is negative or a pointer is null, std::length_error where
-/// `n` exceeds `max_requests` or a device_count its maximum, and what the workspace's allocator
-/// throws. No shader has run then, and `scratch` stays usable.
+/// `n` exceeds `max_requests` or, on a CPU, a device_count its maximum, and what the workspace's
+/// allocator throws. No shader has run then, and `scratch` stays usable. Throws
+/// thrust::system_error where CUDA refuses a launch.
 template <class Policy, class Schedule, class Count, class Ids, class... Shaders, class Allocator>
 void shade(Policy const& exec, Schedule const& schedule, Count n, Ids ids,
            shader_table<Shaders...> const& shaders, workspace<Allocator>& scratch) {
-  static_assert(decltype(detail::runs_on_host(exec))::value,
-                "this version runs on Thrust's cpp, omp and tbb policies");
-  request_index const count = detail::checked_count("shade", n);
+  using system = detail::system_of<Policy>;
+  static_assert(
+      !std::is_void_v<system>,
+      "exec is a policy of Thrust's cpp, omp or tbb system or, where a CUDA compiler is at "
+      "work, of its cuda system");
+  auto const count = detail::wave_size(system{}, n);
   // Sized by the maximum, so that no later count allocates.
   if constexpr (detail::is_device_count<Count>) scratch.reserve(n.maximum, sizeof...(Shaders));
-  if (count == 0) return;
+  if (detail::is_empty(count)) return;
   if constexpr (std::is_pointer_v<Ids>) {
     if (ids == nullptr) {
-      throw std::invalid_argument("deferred_shade::shade: ids is null, and n is " +
-                                  std::to_string(count));
+      throw std::invalid_argument("deferred_shade::shade: ids is null, and n is not 0");
     }
   }
   schedule(exec, count, ids, shaders, scratch);

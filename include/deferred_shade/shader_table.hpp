@@ -14,6 +14,8 @@ namespace detail {
 // tuple, no fold or recursion over the pack limits its size or slows the compiler.
 template <shader_id Id, class Shader>
 struct table_slot {
+  static_assert(std::is_invocable_v<Shader const&, request_index>,
+                "a shader is called as shader(request_index) and its operator() is const");
   Shader shader;
 };
 
@@ -44,8 +46,6 @@ DEFERRED_SHADE_HOST_DEVICE constexpr Shader const& shader_in(
 template <class... Shaders>
 class shader_table {
   static_assert(sizeof...(Shaders) > 0, "a shader table holds at least one shader");
-  static_assert(std::conjunction_v<std::is_invocable<Shaders const&, request_index>...>,
-                "a shader is called as shader(request_index) and its operator() is const");
 
  public:
   constexpr explicit shader_table(Shaders... shaders) : shaders_(std::move(shaders)...) {}
@@ -62,12 +62,20 @@ class shader_table {
   /// Runs shader `id` on request `i`; does nothing where the table has no such shader.
   DEFERRED_SHADE_EXEC_CHECK_DISABLE
   DEFERRED_SHADE_HOST_DEVICE void run(shader_id id, request_index i) const {
-    run_among<0, size()>(id, i);
+    visit(id, call_with{i});
+  }
+
+  /// Calls `f(shader)` for shader `id`; does nothing where the table has no such shader.
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
+  template <class Function>
+  DEFERRED_SHADE_HOST_DEVICE void visit(shader_id id, Function const& f) const {
+    visit_among<0, size()>(id, f);
   }
 
   /// Calls `f(id, shader)` for every shader in order; `id` is a std::integral_constant.
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
   template <class Function>
-  void for_each(Function&& f) const {
+  DEFERRED_SHADE_HOST_DEVICE void for_each(Function&& f) const {
     for_each_among<0, size()>(f);
   }
 
@@ -76,30 +84,40 @@ class shader_table {
   // a fold, which clang limits to 256, apart from the size of the table.
   static constexpr shader_id leaf_size = 32;
 
+  struct call_with {
+    request_index i;
+    DEFERRED_SHADE_EXEC_CHECK_DISABLE
+    template <class Shader>
+    DEFERRED_SHADE_HOST_DEVICE void operator()(Shader const& shader) const {
+      static_cast<void>(shader(i));
+    }
+  };
+
   DEFERRED_SHADE_EXEC_CHECK_DISABLE
-  template <shader_id First, shader_id Last>
-  DEFERRED_SHADE_HOST_DEVICE void run_among(shader_id id, request_index i) const {
+  template <shader_id First, shader_id Last, class Function>
+  DEFERRED_SHADE_HOST_DEVICE void visit_among(shader_id id, Function const& f) const {
     if constexpr (Last - First <= leaf_size) {
-      run_leaf<First>(id, i, std::make_integer_sequence<shader_id, Last - First>());
+      visit_leaf<First>(id, f, std::make_integer_sequence<shader_id, Last - First>());
     } else {
       constexpr shader_id middle = First + (Last - First) / 2;
       if (id < middle) {
-        run_among<First, middle>(id, i);
+        visit_among<First, middle>(id, f);
       } else {
-        run_among<middle, Last>(id, i);
+        visit_among<middle, Last>(id, f);
       }
     }
   }
 
   DEFERRED_SHADE_EXEC_CHECK_DISABLE
-  template <shader_id First, shader_id... Offsets>
-  DEFERRED_SHADE_HOST_DEVICE void run_leaf(shader_id id, request_index i,
-                                           std::integer_sequence<shader_id, Offsets...>) const {
-    (void)((id == First + Offsets && (static_cast<void>(get<First + Offsets>()(i)), true)) || ...);
+  template <shader_id First, class Function, shader_id... Offsets>
+  DEFERRED_SHADE_HOST_DEVICE void visit_leaf(shader_id id, Function const& f,
+                                             std::integer_sequence<shader_id, Offsets...>) const {
+    (void)((id == First + Offsets && (f(get<First + Offsets>()), true)) || ...);
   }
 
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
   template <shader_id First, shader_id Last, class Function>
-  void for_each_among(Function& f) const {
+  DEFERRED_SHADE_HOST_DEVICE void for_each_among(Function& f) const {
     if constexpr (Last - First <= leaf_size) {
       for_each_leaf<First>(f, std::make_integer_sequence<shader_id, Last - First>());
     } else {
@@ -109,8 +127,10 @@ class shader_table {
     }
   }
 
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
   template <shader_id First, class Function, shader_id... Offsets>
-  void for_each_leaf(Function& f, std::integer_sequence<shader_id, Offsets...>) const {
+  DEFERRED_SHADE_HOST_DEVICE void for_each_leaf(
+      Function& f, std::integer_sequence<shader_id, Offsets...>) const {
     (f(std::integral_constant<shader_id, First + Offsets>{}, get<First + Offsets>()), ...);
   }
 

@@ -11,7 +11,11 @@
 
 #include <deferred_shade/blocks.hpp>
 #include <deferred_shade/counts.hpp>
+#include <deferred_shade/system.hpp>
 #include <deferred_shade/types.hpp>
+#ifdef __CUDACC__
+#include <deferred_shade/cuda/host_copy.hpp>
+#endif
 
 namespace deferred_shade {
 namespace detail {
@@ -21,6 +25,24 @@ inline void check_width(std::string const& caller, std::uint32_t width) {
     throw std::invalid_argument("deferred_shade::" + caller + ": a group of width 0 has no lanes");
   }
 }
+
+/// Calls `f(policy, count, ids)` with a policy for a CPU, `n` on the host, and ids that the host
+/// can read.
+template <class Policy, class Count, class Ids, class Function>
+auto on_host(host_system, std::string const& caller, Policy const& exec, Count n, Ids ids,
+             Function const& f) {
+  return f(exec, checked_count(caller, n), ids);
+}
+#ifdef __CUDACC__
+template <class Policy, class Count, class Ids, class Function>
+auto on_host(cuda_system, std::string const& caller, Policy const& exec, Count n, Ids ids,
+             Function const& f) {
+  cudaStream_t const stream = stream_of(exec);
+  request_index const count = count_on_host(caller, stream, n);
+  std::vector<shader_id> const copy = ids_on_host(stream, count, ids);
+  return f(thrust::cpp::par, count, copy.data());
+}
+#endif
 
 }  // namespace detail
 
@@ -40,24 +62,19 @@ struct occurrences {
   std::vector<std::uint64_t> groups;
 };
 
-/// Counts shaders in `n` requests, in groups of `width`; the last group may be incomplete.
-///
-/// For reports, not for every wave: allocates, and returns to the host. Throws
-/// std::invalid_argument where `width` is 0 or `n` negative, std::length_error where `n` exceeds
-/// `max_requests`, and std::bad_alloc.
-template <class Policy, class Count, class Ids>
-occurrences count_occurrences(Policy const& exec, Count n, Ids ids, shader_id shaders,
-                              std::uint32_t width = 32) {
-  std::size_t const size = detail::checked_count("count_occurrences", n);
-  detail::check_width("count_occurrences", width);
+namespace detail {
+
+template <class Policy, class Ids>
+occurrences occurrences_of(Policy const& exec, std::size_t size, Ids const& ids, shader_id shaders,
+                           std::uint32_t width) {
   // Every block has counters of its own and whole groups, so that the sums are exact and do not
   // depend on who owns which block.
-  detail::block_partition const blocks(size, shaders, width);
+  block_partition const blocks(size, shaders, width);
   std::size_t const columns = std::size_t{shaders} + 1;
   std::vector<std::uint64_t> requests(blocks.count() * columns);
   std::vector<std::uint64_t> groups(blocks.count() * columns);
   std::vector<std::uint64_t> last_group(blocks.count() * columns);  // its number + 1; 0: none yet
-  detail::for_each_block(exec, blocks, [&](std::size_t b) {
+  for_each_block(exec, blocks, [&](std::size_t b) {
     std::size_t const row = b * columns;
     for (std::size_t i = blocks.begin(b); i < blocks.end(b); ++i) {
       std::size_t const k = row + shader_of(ids, static_cast<request_index>(i), shaders);
@@ -74,6 +91,48 @@ occurrences count_occurrences(Policy const& exec, Count n, Ids ids, shader_id sh
     for (std::size_t k = 0; k < shaders; ++k) total.groups[k] += groups[b * columns + k];
   }
   return total;
+}
+
+template <class Policy, class Ids>
+void efficiency_of_groups(Policy const& exec, std::size_t size, Ids const& ids,
+                          efficiency_model const& model, float* efficiency) {
+  block_partition const blocks(size, model.shaders, model.width);
+  std::vector<std::size_t> last_group(blocks.count() * model.shaders);
+  for_each_block(exec, blocks, [&](std::size_t b) {
+    std::size_t* const last = last_group.data() + b * model.shaders;
+    for (std::size_t first = blocks.begin(b); first < blocks.end(b); first += model.width) {
+      std::size_t const group = first / model.width;
+      double useful = 0;
+      double held = 0;
+      for (std::size_t i = first; i < std::min(size, first + model.width); ++i) {
+        shader_id const k = shader_of(ids, static_cast<request_index>(i), model.shaders);
+        if (k == model.shaders) continue;
+        useful += model.costs[k];
+        if (last[k] != group + 1) held += model.costs[k];
+        last[k] = group + 1;
+      }
+      efficiency[group] = held > 0 ? static_cast<float>(useful / (model.width * held))
+                                   : std::numeric_limits<float>::quiet_NaN();
+    }
+  });
+}
+
+}  // namespace detail
+
+/// Counts shaders in `n` requests, in groups of `width`; the last group may be incomplete.
+///
+/// For reports, not for every wave: allocates, and returns to the host; on CUDA, waits for the
+/// stream and copies the ids to the host, which counts them. Throws std::invalid_argument where
+/// `width` is 0 or `n` negative, std::length_error where `n` exceeds `max_requests`, and
+/// std::bad_alloc.
+template <class Policy, class Count, class Ids>
+occurrences count_occurrences(Policy const& exec, Count n, Ids ids, shader_id shaders,
+                              std::uint32_t width = 32) {
+  detail::check_width("count_occurrences", width);
+  return detail::on_host(detail::system_of<Policy>{}, "count_occurrences", exec, n, ids,
+                         [&](auto const& policy, std::size_t size, auto const& host_ids) {
+                           return detail::occurrences_of(policy, size, host_ids, shaders, width);
+                         });
 }
 
 /// The heterogeneous efficiency of `n` requests in the order in which lanes take them: the work
@@ -107,27 +166,11 @@ double heterogeneous_efficiency(Policy const& exec, Count n, Ids ids,
 template <class Policy, class Count, class Ids>
 void group_efficiency(Policy const& exec, Count n, Ids ids, efficiency_model const& model,
                       float* efficiency) {
-  std::size_t const size = detail::checked_count("group_efficiency", n);
   detail::check_width("group_efficiency", model.width);
-  detail::block_partition const blocks(size, model.shaders, model.width);
-  std::vector<std::size_t> last_group(blocks.count() * model.shaders);
-  detail::for_each_block(exec, blocks, [&](std::size_t b) {
-    std::size_t* const last = last_group.data() + b * model.shaders;
-    for (std::size_t first = blocks.begin(b); first < blocks.end(b); first += model.width) {
-      std::size_t const group = first / model.width;
-      double useful = 0;
-      double held = 0;
-      for (std::size_t i = first; i < std::min(size, first + model.width); ++i) {
-        shader_id const k = shader_of(ids, static_cast<request_index>(i), model.shaders);
-        if (k == model.shaders) continue;
-        useful += model.costs[k];
-        if (last[k] != group + 1) held += model.costs[k];
-        last[k] = group + 1;
-      }
-      efficiency[group] = held > 0 ? static_cast<float>(useful / (model.width * held))
-                                   : std::numeric_limits<float>::quiet_NaN();
-    }
-  });
+  detail::on_host(detail::system_of<Policy>{}, "group_efficiency", exec, n, ids,
+                  [&](auto const& policy, std::size_t size, auto const& host_ids) {
+                    detail::efficiency_of_groups(policy, size, host_ids, model, efficiency);
+                  });
 }
 
 }  // namespace deferred_shade

@@ -21,7 +21,9 @@ using shader_id = std::uint32_t;
 inline constexpr std::size_t max_requests = std::numeric_limits<request_index>::max();
 
 /// A number of requests that lies in memory where `shade` runs: read when the wave runs, not when
-/// it is submitted. `maximum` is what the renderer guarantees; work space is sized by it.
+/// it is submitted. `maximum` is what the renderer guarantees; work space is sized by it. On CUDA,
+/// where the host cannot see the number, one that is negative counts as 0, and one above `maximum`
+/// as `maximum`.
 template <class Integer>
 struct device_count {
   static_assert(std::is_integral_v<Integer>, "device_count points at an integer");
@@ -35,12 +37,15 @@ device_count(Integer*, std::size_t) -> device_count<std::remove_const_t<Integer>
 /// The requests of a wave, grouped by shader: a view of memory that a workspace owns.
 ///
 /// Both arrays lie where the execution policy runs: a host function may read them on cpp, omp and
-/// tbb. `permutation[offsets[k]]` to `permutation[offsets[k + 1] - 1]` are the requests of shader k
-/// in the order in which they came; `offsets` holds one entry more than the table has shaders. What
-/// `permutation` holds from `offsets[shaders]` on is unspecified.
+/// tbb, and no one before the work on the stream is done on CUDA. `permutation[offsets[k]]` to
+/// `permutation[offsets[k + 1] - 1]` are the requests of shader k in the order in which they came;
+/// `offsets` holds one entry more than the table has shaders. What `permutation` holds from
+/// `offsets[shaders]` on is unspecified. `maximum` is what the host knows of the number of
+/// requests: there are no more.
 struct grouping {
   request_index const* permutation;
   request_index const* offsets;
+  std::size_t maximum = max_requests;
 };
 
 /// The shader that `ids` names for request `i`, or `shaders` where it names none.
@@ -60,4 +65,13 @@ DEFERRED_SHADE_HOST_DEVICE inline shader_id shader_of(Ids const& ids, request_in
   return id < shaders ? id : shaders;
 }
 
+namespace detail {
+
+/// The narrowest key that holds the ids 0 to `Shaders`, the last one for requests that name none.
+template <shader_id Shaders>
+using sort_key =
+    std::conditional_t<(Shaders <= 0xff), std::uint8_t,
+                       std::conditional_t<(Shaders <= 0xffff), std::uint16_t, std::uint32_t>>;
+
+}  // namespace detail
 }  // namespace deferred_shade

@@ -13,7 +13,11 @@
 #include <utility>
 
 #include <deferred_shade/blocks.hpp>
+#include <deferred_shade/system.hpp>
 #include <deferred_shade/types.hpp>
+#ifdef __CUDACC__
+#include <deferred_shade/cuda/allocator.hpp>
+#endif
 
 namespace deferred_shade {
 
@@ -36,8 +40,10 @@ struct elements {
 /// Memory that schedules work in. It grows and never shrinks, so that a renderer that keeps one
 /// does not allocate once the largest wave has passed, or from the start after `reserve`.
 ///
-/// One workspace serves one `shade` at a time. `Allocator` is any standard allocator; the memory it
-/// gives must be accessible where `shade` runs.
+/// One workspace serves one `shade` at a time; on CUDA, also one stream at a time. `Allocator` is
+/// any standard allocator, Thrust's among them; the memory it gives must be accessible where
+/// `shade` runs. From a policy for CUDA comes a workspace on the current device, with a
+/// cuda_allocator.
 ///
 ///     deferred_shade::workspace scratch{thrust::omp::par};
 ///     deferred_shade::workspace mine{my_allocator<std::byte>{pool}};
@@ -157,10 +163,20 @@ class workspace {
 
 namespace detail {
 
-template <class T, class = void>
-struct allocator_for {
+template <class System>
+struct allocator_on {
   using type = std::allocator<std::byte>;
 };
+#ifdef __CUDACC__
+template <>
+struct allocator_on<cuda_system> {
+  using type = cuda_allocator<std::byte>;
+};
+#endif
+
+// An allocator is taken as it is; a policy names the machine that the memory is for.
+template <class T, class = void>
+struct allocator_for : allocator_on<system_of<T>> {};
 template <class T>
 struct allocator_for<T, std::void_t<typename T::value_type>> {
   using type = T;

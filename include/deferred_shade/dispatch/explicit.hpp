@@ -6,38 +6,63 @@
 #include <cstddef>
 
 #include <deferred_shade/shader_table.hpp>
+#include <deferred_shade/system.hpp>
 #include <deferred_shade/types.hpp>
+#ifdef __CUDACC__
+#include <deferred_shade/dispatch/cuda/explicit.hpp>
+#endif
 
 namespace deferred_shade {
+namespace detail {
+
+template <class Policy, class Ids, class... Shaders>
+void run_explicit(host_system, Policy const& exec, request_index n, Ids ids,
+                  shader_table<Shaders...> const& shaders) {
+  shaders.for_each([&](auto id, auto const& shader) {
+    thrust::for_each_n(exec, thrust::counting_iterator<request_index>(0), std::size_t{n},
+                       [ids, &shader](request_index i) {
+                         if (shader_of(ids, i, sizeof...(Shaders)) == decltype(id)::value) {
+                           shader(i);
+                         }
+                       });
+  });
+}
+
+template <class Policy, class... Shaders>
+void run_explicit(host_system, Policy const& exec, grouping group,
+                  shader_table<Shaders...> const& shaders) {
+  shaders.for_each([&](auto id, auto const& shader) {
+    request_index const begin = group.offsets[id];
+    request_index const end = group.offsets[id + 1];
+    if (begin == end) return;
+    thrust::for_each_n(exec, group.permutation + begin, std::size_t{end - begin},
+                       [&shader](request_index i) { shader(i); });
+  });
+}
+
+}  // namespace detail
 
 /// One launch per shader. Schedule 2 of Hoberock et al., HPG 2009, and, over a grouping, the
 /// second half of its schedules 4 and 6.
+///
+/// On CUDA, a shader may say how many threads a block of its launch has, where it knows better than
+/// the occupancy that CUDA computes:
+///
+///     struct marble { static constexpr int block_size = 128; /* ... */ };
 struct explicit_serialization {
   /// The schedule: every launch visits all requests and masks those of other shaders.
-  template <class Policy, class Ids, class... Shaders, class Workspace>
-  void operator()(Policy const& exec, request_index n, Ids ids,
-                  shader_table<Shaders...> const& shaders, Workspace&) const {
-    shaders.for_each([&](auto id, auto const& shader) {
-      thrust::for_each_n(exec, thrust::counting_iterator<request_index>(0), std::size_t{n},
-                         [ids, &shader](request_index i) {
-                           if (shader_of(ids, i, sizeof...(Shaders)) == decltype(id)::value) {
-                             shader(i);
-                           }
-                         });
-    });
+  template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
+  void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
+                  Workspace&) const {
+    detail::run_explicit(detail::system_of<Policy>{}, exec, n, ids, shaders);
   }
 
-  /// The dispatch: every launch visits the segment of its shader; an empty one is not launched.
+  /// The dispatch: every launch visits the segment of its shader. On CPUs, an empty one is not
+  /// launched; on CUDA the length is read by the launch itself, so that the host need not wait.
   template <class Policy, class... Shaders>
   void operator()(Policy const& exec, grouping group,
                   shader_table<Shaders...> const& shaders) const {
-    shaders.for_each([&](auto id, auto const& shader) {
-      request_index const begin = group.offsets[id];
-      request_index const end = group.offsets[id + 1];
-      if (begin == end) return;
-      thrust::for_each_n(exec, group.permutation + begin, std::size_t{end - begin},
-                         [&shader](request_index i) { shader(i); });
-    });
+    detail::run_explicit(detail::system_of<Policy>{}, exec, group, shaders);
   }
 };
 

@@ -8,41 +8,59 @@
 
 #include <deferred_shade/blocks.hpp>
 #include <deferred_shade/shader_table.hpp>
+#include <deferred_shade/system.hpp>
 #include <deferred_shade/types.hpp>
+#ifdef __CUDACC__
+#include <deferred_shade/dispatch/cuda/implicit.hpp>
+#endif
 
 namespace deferred_shade {
+namespace detail {
+
+template <class Policy, class Ids, class... Shaders>
+void run_implicit(host_system, Policy const& exec, request_index n, Ids ids,
+                  shader_table<Shaders...> const& shaders) {
+  thrust::for_each_n(
+      exec, thrust::counting_iterator<request_index>(0), std::size_t{n},
+      [ids, &shaders](request_index i) { shaders.run(shader_of(ids, i, sizeof...(Shaders)), i); });
+}
+
+// The switch is on the segment that holds the request, which a block finds once and then follows.
+template <class Policy, class... Shaders>
+void run_implicit(host_system, Policy const& exec, grouping group,
+                  shader_table<Shaders...> const& shaders) {
+  request_index const* const ends = group.offsets + 1;
+  block_partition const blocks(group.offsets[sizeof...(Shaders)], 0);
+  for_each_block(exec, blocks, [=, &shaders](std::size_t b) {
+    auto const begin = static_cast<request_index>(blocks.begin(b));
+    auto const end = static_cast<request_index>(blocks.end(b));
+    auto id =
+        static_cast<shader_id>(std::upper_bound(ends, ends + sizeof...(Shaders), begin) - ends);
+    for (request_index p = begin; p < end; ++p) {
+      while (p >= ends[id]) ++id;
+      shaders.run(id, group.permutation[p]);
+    }
+  });
+}
+
+}  // namespace detail
 
 /// One launch over all requests, with a switch: where neighbours need different shaders, the
 /// hardware runs one after the other. Schedule 1 of Hoberock et al., HPG 2009, and, over a
 /// grouping, the second half of its schedules 3 and 5.
 struct implicit_serialization {
   /// The schedule: requests as they come.
-  template <class Policy, class Ids, class... Shaders, class Workspace>
-  void operator()(Policy const& exec, request_index n, Ids ids,
-                  shader_table<Shaders...> const& shaders, Workspace&) const {
-    thrust::for_each_n(exec, thrust::counting_iterator<request_index>(0), std::size_t{n},
-                       [ids, &shaders](request_index i) {
-                         shaders.run(shader_of(ids, i, sizeof...(Shaders)), i);
-                       });
+  template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
+  void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
+                  Workspace&) const {
+    detail::run_implicit(detail::system_of<Policy>{}, exec, n, ids, shaders);
   }
 
-  /// The dispatch: requests as `group` orders them. The switch is on the segment that holds the
-  /// request, which a block finds once and then follows.
+  /// The dispatch: requests as `group` orders them.
   template <class Policy, class... Shaders>
   void operator()(Policy const& exec, grouping group,
                   shader_table<Shaders...> const& shaders) const {
-    request_index const* const ends = group.offsets + 1;
-    detail::block_partition const blocks(group.offsets[sizeof...(Shaders)], 0);
-    detail::for_each_block(exec, blocks, [=, &shaders](std::size_t b) {
-      auto const begin = static_cast<request_index>(blocks.begin(b));
-      auto const end = static_cast<request_index>(blocks.end(b));
-      auto id =
-          static_cast<shader_id>(std::upper_bound(ends, ends + sizeof...(Shaders), begin) - ends);
-      for (request_index p = begin; p < end; ++p) {
-        while (p >= ends[id]) ++id;
-        shaders.run(id, group.permutation[p]);
-      }
-    });
+    detail::run_implicit(detail::system_of<Policy>{}, exec, group, shaders);
   }
 };
 

@@ -11,21 +11,20 @@
 #include <utility>
 
 #include <deferred_shade/blocks.hpp>
+#include <deferred_shade/system.hpp>
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
+#ifdef __CUDACC__
+#include <deferred_shade/grouping/cuda/compact.hpp>
+#endif
 
 namespace deferred_shade {
+namespace detail {
 
-/// Groups requests by one stream compaction per shader, "select, scan, scatter" (Hoberock, Lu, Jia
-/// and Hart, "Stream Compaction for Deferred Shading", HPG 2009, section 4.1): every block counts
-/// the requests of the shader, a scan over the counts gives each block its place, and the block
-/// copies its requests there. Reads the ids twice per shader: the work grows with n * shaders.
-///
-/// `ids` is a random-access iterator of `n` ids. The result lives in `scratch` until its next use.
-template <shader_id Shaders, class Policy, class Ids, class Allocator>
-grouping group_by_compaction(Policy const& exec, request_index n, Ids ids,
-                             workspace<Allocator>& scratch) {
-  detail::block_partition const blocks(n, Shaders);
+template <shader_id Shaders, class Policy, class Ids, class Workspace>
+grouping compact_grouping(host_system, Policy const& exec, request_index n, Ids ids,
+                          Workspace& scratch) {
+  block_partition const blocks(n, Shaders);
   auto const [permutation, counts, offsets] = scratch.take(
       elements<request_index>(n), elements<std::uint32_t>(blocks.max_count(n, Shaders) + 1),
       elements<request_index>(Shaders + 1));
@@ -38,20 +37,33 @@ grouping group_by_compaction(Policy const& exec, request_index n, Ids ids,
   offsets[0] = 0;
   for (shader_id k = 0; k < Shaders; ++k) {
     auto const selected = [ids, k](request_index i) { return shader_of(ids, i, Shaders) == k; };
-    detail::for_each_block(exec, blocks, [=, counts = counts](std::size_t b) {
+    for_each_block(exec, blocks, [=, counts = counts](std::size_t b) {
       auto const [first, last] = requests(b);
       counts[b] = static_cast<std::uint32_t>(thrust::count_if(thrust::seq, first, last, selected));
     });
     counts[blocks.count()] = 0;
     thrust::exclusive_scan(thrust::seq, counts, counts + blocks.count() + 1, counts, offsets[k]);
     offsets[k + 1] = counts[blocks.count()];
-    detail::for_each_block(
-        exec, blocks, [=, counts = counts, permutation = permutation](std::size_t b) {
-          auto const [first, last] = requests(b);
-          thrust::copy_if(thrust::seq, first, last, permutation + counts[b], selected);
-        });
+    for_each_block(exec, blocks, [=, counts = counts, permutation = permutation](std::size_t b) {
+      auto const [first, last] = requests(b);
+      thrust::copy_if(thrust::seq, first, last, permutation + counts[b], selected);
+    });
   }
-  return {permutation, offsets};
+  return {permutation, offsets, n};
+}
+
+}  // namespace detail
+
+/// Groups requests by one stream compaction per shader, "select, scan, scatter" (Hoberock, Lu, Jia
+/// and Hart, "Stream Compaction for Deferred Shading", HPG 2009, section 4.1): every block counts
+/// the requests of the shader, a scan over the counts gives each block its place, and the block
+/// copies its requests there. Reads the ids twice per shader: the work grows with n * shaders.
+///
+/// `ids` is a random-access iterator of `n` ids; `n` is a request_index, or on CUDA a device_count.
+/// The result lives in `scratch` until its next use.
+template <shader_id Shaders, class Policy, class Count, class Ids, class Allocator>
+grouping group_by_compaction(Policy const& exec, Count n, Ids ids, workspace<Allocator>& scratch) {
+  return detail::compact_grouping<Shaders>(detail::system_of<Policy>{}, exec, n, ids, scratch);
 }
 
 }  // namespace deferred_shade

@@ -59,6 +59,15 @@ void counting_sort(Ids const& ids, request_index first, request_index size,
   }
 }
 
+/// A key to sort a tile by: the shader above the position in the tile, so that requests of one
+/// shader keep their order. The largest number is no key.
+template <shader_id Shaders>
+DEFERRED_SHADE_HOST_DEVICE constexpr std::uint32_t bitonic_key(shader_id shader,
+                                                               request_index position) {
+  static_assert(Shaders < 0xffffffffU / bitonic::tile, "a shader and a position fit in 32 bits");
+  return shader * bitonic::tile + position;
+}
+
 /// Sorts `Size` keys, a power of two, by Batcher's bitonic network ("Sorting networks and their
 /// applications", AFIPS 1968): the same comparisons for every input, so that lanes never diverge.
 template <std::size_t Size>

@@ -15,9 +15,9 @@ namespace deferred_shade {
 /// whatever the number of shaders.
 template <class Dispatch = explicit_serialization>
 struct compact_then_dispatch {
-  template <class Policy, class Ids, class... Shaders, class Workspace>
-  void operator()(Policy const& exec, request_index n, Ids ids,
-                  shader_table<Shaders...> const& shaders, Workspace& scratch) const {
+  template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
+  void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
+                  Workspace& scratch) const {
     Dispatch{}(exec, group_by_compaction<sizeof...(Shaders)>(exec, n, ids, scratch), shaders);
   }
 };

@@ -12,9 +12,9 @@ namespace deferred_shade {
 /// explicit_serialization. Schedules 5 and 6 of Hoberock et al., HPG 2009.
 template <class Dispatch = explicit_serialization>
 struct sort_then_dispatch {
-  template <class Policy, class Ids, class... Shaders, class Workspace>
-  void operator()(Policy const& exec, request_index n, Ids ids,
-                  shader_table<Shaders...> const& shaders, Workspace& scratch) const {
+  template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
+  void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
+                  Workspace& scratch) const {
     Dispatch{}(exec, group_by_radix_sort<sizeof...(Shaders)>(exec, n, ids, scratch), shaders);
   }
 };

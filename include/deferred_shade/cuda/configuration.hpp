@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cuda_runtime.h>
+#include <cstddef>
+#include <string>
+
+#include <deferred_shade/cuda/launch.hpp>
+#include <deferred_shade/records.hpp>
+
+namespace deferred_shade::detail {
+
+/// The `block_size` that a shader declares, or the function of a record shader; else 0.
+template <class Shader, class = void>
+inline constexpr int declared_block_size = 0;
+template <class Shader>
+inline constexpr int declared_block_size<Shader, std::void_t<decltype(Shader::block_size)>> =
+    Shader::block_size;
+template <class Source, class Function, class Sink>
+inline constexpr int declared_block_size<record_shader<Source, Function, Sink>, void> =
+    declared_block_size<Function>;
+
+/// How one kernel fills the current device.
+struct kernel_occupancy {
+  std::uint32_t threads;        ///< per block
+  std::size_t resident_blocks;  ///< on all multiprocessors together
+};
+
+/// The occupancy of `Kernel` on the current device: with `threads` per block, or with as many as
+/// fill the device best where that is 0. Asked of CUDA once per thread of the host and device.
+template <auto Kernel>
+kernel_occupancy occupancy_of(int threads) {
+  thread_local int known_device = -1;
+  thread_local kernel_occupancy known{};
+  int device = 0;
+  check_cuda(cudaGetDevice(&device), "no CUDA device");
+  if (device == known_device) return known;
+  int blocks = 0;
+  if (threads == 0) {
+    check_cuda(cudaOccupancyMaxPotentialBlockSize(&blocks, &threads, Kernel), "occupancy");
+  }
+  check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, Kernel, threads, 0),
+             "occupancy");
+  if (blocks == 0) {
+    check_cuda(cudaErrorInvalidConfiguration,
+               "no multiprocessor has room for a block of " + std::to_string(threads) + " threads");
+  }
+  known = {static_cast<std::uint32_t>(threads),
+           static_cast<std::size_t>(blocks) * multiprocessors()};
+  known_device = device;
+  return known;
+}
+
+}  // namespace deferred_shade::detail

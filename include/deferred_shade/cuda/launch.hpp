@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cuda_runtime.h>
+#include <thrust/detail/execution_policy.h>
+#include <thrust/system/cuda/detail/util.h>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include <deferred_shade/cuda/runtime.hpp>
+#include <deferred_shade/types.hpp>
+
+namespace deferred_shade::detail {
+
+/// The stream that a Thrust policy for CUDA names.
+template <class Policy>
+cudaStream_t stream_of(Policy const& exec) {
+  auto policy = thrust::detail::derived_cast(exec);  // Thrust asks for one that is not const
+  return thrust::cuda_cub::stream(policy);
+}
+
+/// The number of requests, where a kernel reads it. The host cannot see what a device_count points
+/// at, so that it is taken into 0 to its maximum here.
+__device__ inline request_index size_of(request_index n) { return n; }
+template <class Integer>
+__device__ request_index size_of(device_count<Integer> n) {
+  Integer const count = *n.pointer;
+  if constexpr (std::is_signed_v<Integer>) {
+    if (count < 0) return 0;
+  }
+  auto const positive = static_cast<std::make_unsigned_t<Integer>>(count);
+  return static_cast<request_index>(positive < n.maximum ? positive : n.maximum);
+}
+
+/// What the host knows of the number of requests: its maximum.
+inline std::size_t maximum_of(request_index n) { return n; }
+template <class Integer>
+std::size_t maximum_of(device_count<Integer> n) {
+  return n.maximum;
+}
+
+/// What a launch asks for. A grid of no blocks is not launched.
+struct launch_shape {
+  std::size_t blocks;
+  std::uint32_t threads;
+  std::size_t shared_bytes = 0;
+};
+
+/// Launches `kernel` on `stream`; throws where CUDA refuses: `what` says which one it was.
+template <class... Parameters, class... Arguments>
+void launch(char const* what, cudaStream_t stream, launch_shape shape,
+            void (*kernel)(Parameters...), Arguments const&... arguments) {
+  if (shape.blocks == 0) return;
+  if (shape.shared_bytes > 0) {  // with what the kernel has itself, it may be more than the default
+    check_cuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                                    static_cast<int>(shape.shared_bytes)),
+               what);
+  }
+  kernel<<<static_cast<unsigned>(shape.blocks), shape.threads, shape.shared_bytes, stream>>>(
+      arguments...);
+  check_cuda(cudaGetLastError(), what);
+}
+
+/// The blocks of `threads` that hold `n` threads.
+constexpr std::size_t blocks_for(std::size_t n, std::uint32_t threads) {
+  return (n + threads - 1) / threads;
+}
+
+/// The multiprocessors of the current device.
+inline std::size_t multiprocessors() {
+  int device = 0;
+  int count = 0;
+  check_cuda(cudaGetDevice(&device), "no CUDA device");
+  check_cuda(cudaDeviceGetAttribute(&count, cudaDevAttrMultiProcessorCount, device),
+             "multiprocessor count");
+  return static_cast<std::size_t>(count);
+}
+
+}  // namespace deferred_shade::detail

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cuda_runtime.h>
+#include <cstdint>
+#include <type_traits>
+
+#include <deferred_shade/cuda/warp.hpp>
+#include <deferred_shade/types.hpp>
+
+namespace deferred_shade::detail {
+
+/// The shaders of `Items` neighbouring requests, of which `size` exist: keys[i] is the shader of
+/// request `first + i`, or `Shaders` where it names none or does not exist.
+///
+/// Ids that lie in memory are loaded 16 bytes at a time where their address allows it.
+template <shader_id Shaders, std::uint32_t Items, class Ids>
+__device__ void load_neighbours(Ids const& ids, request_index first, std::uint32_t size,
+                                std::uint32_t (&keys)[Items]) {
+  if constexpr (std::is_pointer_v<Ids>) {
+    using id = std::remove_cv_t<std::remove_pointer_t<Ids>>;
+    constexpr std::uint32_t per_vector = sizeof(uint4) / sizeof(id);
+    if constexpr (Items % per_vector == 0) {
+      auto const* const vectors = reinterpret_cast<uint4 const*>(ids + first);
+      if (size >= Items && reinterpret_cast<std::uintptr_t>(vectors) % sizeof(uint4) == 0) {
+#pragma unroll
+        for (std::uint32_t v = 0; v < Items / per_vector; ++v) {
+          uint4 const vector = vectors[v];
+          id const* const loaded = reinterpret_cast<id const*>(&vector);
+#pragma unroll
+          for (std::uint32_t i = 0; i < per_vector; ++i) {
+            keys[v * per_vector + i] = shader_of(loaded, i, Shaders);
+          }
+        }
+        return;
+      }
+    }
+  }
+#pragma unroll
+  for (std::uint32_t i = 0; i < Items; ++i) {
+    keys[i] = i < size ? shader_of(ids, first + i, Shaders) : Shaders;
+  }
+}
+
+/// The same for rows: keys[i] is the shader of request `first + i * 32`, for the lane whose first
+/// request is `first`, and `size` requests exist from there on.
+template <shader_id Shaders, std::uint32_t Items, class Ids>
+__device__ void load_rows(Ids const& ids, request_index first, std::uint32_t size,
+                          std::uint32_t (&keys)[Items]) {
+  if (__all_sync(all_lanes, size > (Items - 1) * warp_size)) {  // then no load waits for a branch
+#pragma unroll
+    for (std::uint32_t i = 0; i < Items; ++i) {
+      keys[i] = shader_of(ids, first + i * warp_size, Shaders);
+    }
+  } else {
+#pragma unroll
+    for (std::uint32_t i = 0; i < Items; ++i) {
+      std::uint32_t const distance = i * warp_size;
+      keys[i] = distance < size ? shader_of(ids, first + distance, Shaders) : Shaders;
+    }
+  }
+}
+
+}  // namespace deferred_shade::detail

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <tuple>
+#include <type_traits>
+
+#include <deferred_shade/records.hpp>
+
+namespace deferred_shade::detail {
+
+/// What record shaders of one table have in common where their requests can pass through shared
+/// memory: one type of source, of sink and of result, all trivially copyable, and small records.
+template <class... Shaders>
+struct staging {
+  static constexpr bool possible = false;
+};
+
+template <class Source, class Sink, class... Functions>
+struct staging<record_shader<Source, Functions, Sink>...> {
+  using source_type = Source;
+  using sink_type = Sink;
+  template <class Function>
+  using shader = record_shader<Source, Function, Sink>;
+  using first_shader = shader<std::tuple_element_t<0, std::tuple<Functions...>>>;
+  using request = typename first_shader::request_type;
+  using result = typename first_shader::result_type;
+
+  /// The bytes of shared memory for a request, and in the same place for its result.
+  static constexpr std::size_t slot = (std::max(sizeof(request), sizeof(result)) + 15) / 16 * 16;
+
+  static constexpr bool possible =
+      (std::is_same_v<result, typename shader<Functions>::result_type> && ...) &&
+      std::is_trivially_copyable_v<request> && std::is_trivially_copyable_v<result> &&
+      std::is_trivially_copyable_v<Source> && std::is_trivially_copyable_v<Sink> &&
+      alignof(request) <= 16 && alignof(result) <= 16 && slot <= 128;
+
+  /// Whether requests lie in memory as they lie in the slots, so that 16 bytes are copied at a
+  /// time.
+  static constexpr bool copies_words =
+      std::is_pointer_v<Source> && sizeof(request) == slot && alignof(request) == 16;
+};
+
+}  // namespace deferred_shade::detail

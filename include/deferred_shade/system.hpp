@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <thrust/system/cpp/execution_policy.h>
+#include <utility>
+#ifdef __CUDACC__
+#include <thrust/system/cuda/execution_policy.h>
+#endif
+
+namespace deferred_shade::detail {
+
+/// Where an execution policy runs: what a tuned version of an algorithm is chosen by.
+struct host_system {};
+struct cuda_system {};
+
+// Thrust's systems for CPUs, cpp, omp and tbb, share a base; so does thrust::seq.
+template <class Policy>
+host_system find_system(thrust::system::detail::sequential::execution_policy<Policy> const&);
+#ifdef __CUDACC__
+template <class Policy>
+cuda_system find_system(thrust::system::cuda::execution_policy<Policy> const&);
+#endif
+void find_system(...);
+
+/// host_system, cuda_system where a CUDA compiler is at work, or void.
+template <class Policy>
+using system_of = decltype(find_system(std::declval<Policy const&>()));
+
+}  // namespace deferred_shade::detail
