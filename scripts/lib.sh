@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash disable=SC2034
-# What scripts/demo and scripts/test share; sourced by them.
+# What scripts/demo, scripts/test and scripts/test-cuda share; sourced by them.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 cd "$root" || exit 1
@@ -73,17 +73,22 @@ has_cccl() {
 }
 has_pip() { python3 -m pip --version >/dev/null 2>&1; }
 
-# Everything that a build needs, and the packages given.
-prepare() {
-  local pip=()
-  has_cccl || has_pip || pip=(python3-pip:)
-  install_packages "${build_packages[@]}" "${pip[@]}" "$@"
+# The presets have a version that is newer than the project's minimum.
+check_cmake() {
   local version
   version=$(cmake --version | sed -n 's/^cmake version \([0-9.]*\).*/\1/p')
   if [[ $(printf '%s\n' 3.25 "$version" | sort -V | head -n 1) != 3.25 ]]; then
     die "The presets need CMake 3.25 or newer, and $(command -v cmake) is $version." \
       "Without presets, CMake 3.22 does: cmake -S . -B build/plain && cmake --build build/plain"
   fi
+}
+
+# Everything that a build needs, and the packages given.
+prepare() {
+  local pip=()
+  has_cccl || has_pip || pip=(python3-pip:)
+  install_packages "${build_packages[@]}" "${pip[@]}" "$@"
+  check_cmake
   mkdir -p build
   has_cccl && return 0
   say "No Thrust on this machine: taking $cccl_wheel into build/cccl"

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <thrust/execution_policy.h>
 
+#include "../support/every_schedule.hpp"
 #include "shade_sum.hpp"
 
-int first_unit() { return shade_sum(thrust::device, deferred_shade::explicit_serialization{}); }
+bool first_unit() {
+  bool right = true;
+  test::for_each_schedule([&](auto const& s) { right = shade_sum(thrust::device, s) && right; });
+  return right;
+}

@@ -1,26 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
+#include <thrust/device_vector.h>
+#include <thrust/host_vector.h>
 #include <cstdint>
+#include <cstdio>
 #include <deferred_shade/deferred_shade.hpp>
 
-// Both translation units instantiate the library, with the same types and with types of their own.
 struct add {
   int* results;
   int value;
-  void operator()(deferred_shade::request_index i) const { results[i] += value; }
+  DEFERRED_SHADE_HOST_DEVICE void operator()(deferred_shade::request_index i) const {
+    results[i] += value;
+  }
 };
 
+/// Shades five requests where `exec` runs; whether the sum of their results is right.
 template <class Policy, class Schedule>
-int shade_sum(Policy const& exec, Schedule const& schedule) {
+bool shade_sum(Policy const& exec, Schedule const& schedule) {
   namespace ds = deferred_shade;
-  std::array<std::uint8_t, 5> const ids{0, 1, 0, 2, 1};
-  std::array<int, 5> results{};
-  ds::shader_table const shaders{add{results.data(), 1}, add{results.data(), 10}};
+  std::uint8_t const list[] = {0, 1, 0, 2, 1};
+  thrust::device_vector<std::uint8_t> const ids(list, list + 5);
+  thrust::device_vector<int> results(ids.size(), 0);
+  int* const first = thrust::raw_pointer_cast(results.data());
+  ds::shader_table const shaders{add{first, 1}, add{first, 10}};
   ds::workspace scratch{exec};
-  ds::shade(exec, schedule, ids.size(), ids.data(), shaders, scratch);
+  ds::shade(exec, schedule, ids.size(), thrust::raw_pointer_cast(ids.data()), shaders, scratch);
+  thrust::host_vector<int> const host_results = results;
   int sum = 0;
-  for (int result : results) sum += result;
-  return sum;
+  for (int const result : host_results) sum += result;
+  std::printf("%d, expected 22\n", sum);
+  return sum == 22;
 }
