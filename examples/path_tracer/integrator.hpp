@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <thrust/count.h>
+#include <thrust/fill.h>
 #include <thrust/for_each.h>
 #include <thrust/functional.h>
 #include <thrust/iterator/counting_iterator.h>
+#include <thrust/memory.h>
 #include <thrust/transform_reduce.h>
 
 #include <chrono>
@@ -13,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "host_backend.hpp"
+#include "host_scene.hpp"
 #include "render.hpp"
 #include "shaders.hpp"
 #include "stages.hpp"
@@ -26,15 +29,26 @@ using progress_function = std::function<void(double)>;
 inline constexpr std::uint64_t small_wave = std::uint64_t{1} << 18;
 inline constexpr std::uint64_t large_wave = std::uint64_t{1} << 20;
 
-/// The arrays behind a wave_view.
+/// The first of an array of a backend.
+template <class Array>
+auto* data_of(Array& array) {
+  return thrust::raw_pointer_cast(array.data());
+}
+
+/// The arrays behind a wave_view, in the memory of a backend.
+template <class Backend>
 class wave_storage {
  public:
-  explicit wave_storage(std::size_t paths)
-      : vectors_(7 * paths), pdf_(paths), primitive_(paths), barycentric_(paths), id_(paths) {}
+  wave_storage(Backend const& backend, std::size_t paths)
+      : vectors_(backend.template make_array<vec3>(7 * paths)),
+        pdf_(backend.template make_array<float>(paths)),
+        primitive_(backend.template make_array<std::uint32_t>(paths)),
+        barycentric_(backend.template make_array<vec2>(paths)),
+        id_(backend.template make_array<std::uint8_t>(paths)) {}
 
   wave_view view() {
     std::size_t const n = id_.size();
-    vec3* const v = vectors_.data();
+    vec3* const v = data_of(vectors_);
     wave_view w{};
     w.origin = v;
     w.direction = v + n;
@@ -43,19 +57,22 @@ class wave_storage {
     w.shadow_origin = v + 4 * n;
     w.shadow_vector = v + 5 * n;
     w.shadow_light = v + 6 * n;
-    w.pdf = pdf_.data();
-    w.primitive = primitive_.data();
-    w.barycentric = barycentric_.data();
-    w.id = id_.data();
+    w.pdf = data_of(pdf_);
+    w.primitive = data_of(primitive_);
+    w.barycentric = data_of(barycentric_);
+    w.id = data_of(id_);
     return w;
   }
 
  private:
-  std::vector<vec3> vectors_;
-  std::vector<float> pdf_;
-  std::vector<std::uint32_t> primitive_;
-  std::vector<vec2> barycentric_;
-  std::vector<std::uint8_t> id_;
+  template <class T>
+  using array = decltype(std::declval<Backend const&>().template make_array<T>(0));
+
+  array<vec3> vectors_;
+  array<float> pdf_;
+  array<std::uint32_t> primitive_;
+  array<vec2> barycentric_;
+  array<std::uint8_t> id_;
 };
 
 /// The table that `enum shader` numbers.
@@ -73,43 +90,53 @@ inline auto make_shaders(wave_view const& w, scene_view const& s) {
                                       miss_shader{w, s}};
 }
 
-/// A wavefront path tracer on one Thrust backend: every stage runs over all paths of a wave, and
-/// the one that diverges, shading, goes through the library.
-template <class Policy>
+/// A wavefront path tracer on one backend: every stage runs over all paths of a wave, and the one
+/// that diverges, shading, goes through the library.
+template <class Backend>
 class integrator {
  public:
-  integrator(Policy exec, scene_view const& scene, render_settings const& settings)
-      : exec_(exec), scene_(scene), settings_(settings), scratch_(exec) {}
+  integrator(Backend const& backend, scene_view const& scene, render_settings const& settings)
+      : backend_(backend),
+        exec_(backend.policy()),
+        scene_(scene),
+        settings_(settings),
+        scratch_(exec_),
+        group_time_(backend),
+        total_time_(backend) {}
 
   template <class Schedule>
   render_result run(Schedule const& schedule, progress_function const& progress) {
-    auto const start = clock::now();
+    auto const start = std::chrono::steady_clock::now();
     std::uint64_t const pixels = std::uint64_t{settings_.width} * settings_.height;
     std::uint64_t const items = pixels * settings_.samples;
     std::uint64_t const wave_size = glm::min(items, glm::clamp(pixels, small_wave, large_wave));
-    wave_storage storage(wave_size);
+    wave_storage storage(backend_, wave_size);
     wave_view wave = storage.view();
     wave.seed = settings_.seed;
     wave.pixels = static_cast<std::uint32_t>(pixels);
     wave.max_depth = settings_.max_depth;
-    std::vector<glm::dvec3> sums(pixels, glm::dvec3{0});
+    auto sums = backend_.template make_array<glm::dvec3>(pixels);
     scratch_.reserve(wave_size, shader_count);
+    if (settings_.statistics) warm_up(schedule, wave, static_cast<std::uint32_t>(wave_size));
     for (wave.first = 0; wave.first < items; wave.first += wave_size) {
       auto const paths = static_cast<std::uint32_t>(glm::min(wave_size, items - wave.first));
       trace_wave(schedule, wave, paths);
       auto const touched = static_cast<std::uint32_t>(glm::min(pixels, std::uint64_t{paths}));
-      result_.discarded_samples += sum_over(touched, accumulate_samples{wave, paths, sums.data()});
+      for_all(touched, accumulate_samples{wave, paths, data_of(sums)});
+      result_.discarded_samples += sum_over(paths, count_discarded{wave});
       if (progress) progress(static_cast<double>(wave.first + paths) / static_cast<double>(items));
     }
     result_.pixels.reserve(pixels);
-    for (glm::dvec3 const& sum : sums) result_.pixels.emplace_back(sum / double(settings_.samples));
+    for (glm::dvec3 const& sum : backend_.to_host(std::move(sums)))
+      result_.pixels.emplace_back(sum / double(settings_.samples));
     for (bounce& b : result_.bounces) b.shade_ms = b.total_ms - b.group_ms;
-    result_.seconds = std::chrono::duration<double>(clock::now() - start).count();
+    result_.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return std::move(result_);
   }
 
  private:
-  using clock = std::chrono::steady_clock;
+  using stopwatch = typename Backend::stopwatch;
 
   template <class Function>
   void for_all(std::uint32_t count, Function const& f) {
@@ -122,37 +149,51 @@ class integrator {
                                     thrust::plus<std::uint64_t>());
   }
   template <class Schedule, class Table>
-  double timed_shade(Schedule const& schedule, std::uint32_t paths, std::uint8_t const* ids,
-                     Table const& table) {
-    auto const start = clock::now();
+  void timed_shade(Schedule const& schedule, std::uint32_t paths, std::uint8_t const* ids,
+                   Table const& table, stopwatch& time) {
+    time.start();
     deferred_shade::shade(exec_, schedule, paths, ids, table, scratch_);
-    return std::chrono::duration<double, std::milli>(clock::now() - start).count();
+    time.stop();
+  }
+
+  /// Runs the schedule over paths that are all finished, for no time to count what a first launch
+  /// takes: the start of threads, or the way of the kernels to the device.
+  template <class Schedule>
+  void warm_up(Schedule const& schedule, wave_view const& wave, std::uint32_t paths) {
+    thrust::fill_n(exec_, wave.id, paths, finished);
+    timed_shade(schedule, paths, wave.id, uniform_table(empty_shader{}), group_time_);
+    timed_shade(schedule, paths, wave.id, make_shaders(wave, scene_), total_time_);
   }
 
   template <class Schedule>
   void trace_wave(Schedule const& schedule, wave_view wave, std::uint32_t paths) {
     for_all(paths, generate_paths{wave, scene_.view, settings_.width, settings_.height});
-    for (wave.bounce = 0; wave.bounce < wave.max_depth; ++wave.bounce) {
+    ray_count rays{paths, 0};
+    for (wave.bounce = 0; rays.extended > 0 && wave.bounce != wave.max_depth; ++wave.bounce) {
       for_all(paths, find_hits{wave, scene_});
-      std::uint64_t const requests = paths - static_cast<std::uint64_t>(thrust::count(
-                                                 exec_, wave.id, wave.id + paths, finished));
-      if (requests == 0) return;
       if (result_.bounces.size() == wave.bounce) result_.bounces.emplace_back();
       bounce& b = result_.bounces[wave.bounce];
-      b.requests += requests;
-      if (settings_.statistics) {
-        b.group_ms += timed_shade(schedule, paths, wave.id, uniform_table(empty_shader{}));
-        if (wave.first == 0) measure_efficiency(schedule, paths, wave, b);
-      }
-      b.total_ms += timed_shade(schedule, paths, wave.id, make_shaders(wave, scene_));
-      result_.rays += requests + sum_over(paths, trace_shadows{wave, scene_.bvh});
+      b.requests += rays.extended;
+      if (settings_.statistics)
+        timed_shade(schedule, paths, wave.id, uniform_table(empty_shader{}), group_time_);
+      timed_shade(schedule, paths, wave.id, make_shaders(wave, scene_), total_time_);
+      for_all(paths, trace_shadows{wave, scene_.bvh});
+      result_.rays += rays.extended;
+      rays = ray_count::unpacked(sum_over(paths, count_rays{wave}));
+      result_.rays += rays.shadow;
+      b.total_ms += total_time_.milliseconds();
+      if (settings_.statistics) b.group_ms += group_time_.milliseconds();
+      if (settings_.statistics && wave.first == 0)
+        measure_efficiency(schedule, backend_.to_host(wave.id, paths), wave, b);
     }
   }
 
-  Policy exec_;
+  Backend const& backend_;
+  decltype(std::declval<Backend const&>().policy()) exec_;
   scene_view scene_;
   render_settings settings_;
-  decltype(deferred_shade::workspace{std::declval<Policy>()}) scratch_;
+  decltype(deferred_shade::workspace{std::declval<Backend const&>().policy()}) scratch_;
+  stopwatch group_time_, total_time_;
   render_result result_;
 };
 
@@ -177,21 +218,22 @@ bool with_schedule(std::string_view name, Function const& f) {
          is("local", ds::local_sort_then_dispatch<>{});
 }
 
-/// Renders on `exec` by the schedule that the settings name.
-template <class Policy>
-render_result integrate(Policy const& exec, scene_view const& scene,
+/// Renders a scene in the memory of `backend` by the schedule that the settings name.
+template <class Backend>
+render_result integrate(Backend const& backend, scene_view const& scene,
                         render_settings const& settings, progress_function const& progress) {
   render_result result;
   bool const known = with_schedule(settings.schedule, [&](auto const& schedule) {
-    result = integrator<Policy>{exec, scene, settings}.run(schedule, progress);
+    result = integrator<Backend>{backend, scene, settings}.run(schedule, progress);
   });
   if (!known) throw std::invalid_argument("unknown schedule \"" + settings.schedule + "\"");
   return result;
 }
 
 // One per backend, each in a file of its own.
-render_result render_cpp(scene_view const&, render_settings const&, progress_function const&);
-render_result render_omp(scene_view const&, render_settings const&, progress_function const&);
-render_result render_tbb(scene_view const&, render_settings const&, progress_function const&);
+render_result render_cpp(host_scene const&, render_settings const&, progress_function const&);
+render_result render_omp(host_scene const&, render_settings const&, progress_function const&);
+render_result render_tbb(host_scene const&, render_settings const&, progress_function const&);
+render_result render_cuda(host_scene const&, render_settings const&, progress_function const&);
 
 }  // namespace path_tracer

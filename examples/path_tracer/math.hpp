@@ -3,9 +3,15 @@
 
 #define GLM_FORCE_SILENT_WARNINGS
 #ifdef __CUDACC__
+#include <cuda.h>  // for its version, which glm asks for
 #define GLM_FORCE_CUDA
+#pragma nv_diagnostic push
+#pragma nv_diag_suppress 20012  // glm marks defaulted functions as host/device
 #endif
 #include <glm/glm.hpp>
+#ifdef __CUDACC__
+#pragma nv_diagnostic pop
+#endif
 
 #include <deferred_shade/config.hpp>
 

@@ -106,7 +106,7 @@ void declare(CLI::App& app, options& o) {
   text("--backend", s.backend, "Where to run: " + join(backend_names))
       ->check(one_of(backend_names))
       ->type_name("NAME");
-  number("--threads", s.threads, 0, 1024, "Threads; 0: as many as the machine has");
+  number("--threads", s.threads, 0, 1024, "Threads of the CPU; 0: as many as it has");
   text("--schedule", s.schedule,
        "Order of shading: " + schedule_list +
            ";\nor all: render with each, compare the pictures, print a table")

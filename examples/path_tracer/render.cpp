@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "bvh_builder.hpp"
 #include "integrator.hpp"
 
 namespace path_tracer {
@@ -12,7 +11,7 @@ namespace {
 
 struct backend {
   std::string_view name;
-  render_result (*render)(scene_view const&, render_settings const&, progress_function const&);
+  render_result (*render)(host_scene const&, render_settings const&, progress_function const&);
 };
 
 constexpr backend all_backends[] = {
@@ -23,15 +22,10 @@ constexpr backend all_backends[] = {
 #ifdef PATH_TRACER_HAS_TBB
     {"tbb", render_tbb},
 #endif
+#ifdef PATH_TRACER_HAS_CUDA
+    {"cuda", render_cuda},
+#endif
 };
-
-/// Linear values of the 256 sRGB codes.
-std::vector<float> srgb_table() {
-  std::vector<float> table;
-  for (int code = 0; code < 256; ++code)
-    table.push_back(srgb_to_linear(static_cast<float>(code) / 255.0f));
-  return table;
-}
 
 void check(scene const& s, render_settings const& settings) {
   std::uint64_t const pixels = std::uint64_t{settings.width} * settings.height;
@@ -64,18 +58,7 @@ render_result render(scene const& s, render_settings const& settings,
   if (chosen == std::end(all_backends))
     throw std::invalid_argument("unknown backend \"" + settings.backend + "\"");
   check(s, settings);
-  bvh const hierarchy = build_bvh(s.triangles);
-  light_list const lights(s);
-  std::vector<float> const linear = srgb_table();
-  scene_view const view{hierarchy.view(),
-                        s.triangles.data(),
-                        s.materials.data(),
-                        {s.textures.data(), s.texels.data(), linear.data()},
-                        lights.view(s.lights.data()),
-                        &host_albedo_tables(),
-                        s.view,
-                        s.background};
-  return chosen->render(view, settings, progress);
+  return chosen->render(host_scene(s), settings, progress);
 }
 
 }  // namespace path_tracer

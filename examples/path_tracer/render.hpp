@@ -18,7 +18,7 @@ struct render_settings {
   std::uint64_t seed = 1;
   std::string backend = "omp";     ///< one of backends()
   std::string schedule = "local";  ///< one of schedules()
-  unsigned threads = 0;            ///< 0: as many as the machine has
+  unsigned threads = 0;            ///< of the CPU; 0: as many as it has
   bool statistics = false;         ///< fill bounce::efficiency and bounce::group_efficiency
 };
 
@@ -46,7 +46,8 @@ std::vector<std::string_view> backends();
 std::vector<std::string_view> schedules();
 
 /// Renders `s`; calls `progress` with the fraction done, from the calling thread.
-/// Throws std::invalid_argument for a name that the lists above do not have.
+/// Throws std::invalid_argument for a name that the lists above do not have, std::runtime_error
+/// where there is no GPU for a backend that needs one.
 render_result render(scene const& s, render_settings const& settings,
                      std::function<void(double)> const& progress = {});
 

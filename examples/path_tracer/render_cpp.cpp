@@ -5,9 +5,9 @@
 
 namespace path_tracer {
 
-render_result render_cpp(scene_view const& scene, render_settings const& settings,
+render_result render_cpp(host_scene const& scene, render_settings const& settings,
                          progress_function const& progress) {
-  return integrate(thrust::cpp::par, scene, settings, progress);
+  return integrate(host_backend{thrust::cpp::par}, scene.view(), settings, progress);
 }
 
 }  // namespace path_tracer

@@ -25,10 +25,10 @@ class thread_limit {
 
 }  // namespace
 
-render_result render_omp(scene_view const& scene, render_settings const& settings,
+render_result render_omp(host_scene const& scene, render_settings const& settings,
                          progress_function const& progress) {
   thread_limit const limit(settings.threads);
-  return integrate(thrust::omp::par, scene, settings, progress);
+  return integrate(host_backend{thrust::omp::par}, scene.view(), settings, progress);
 }
 
 }  // namespace path_tracer

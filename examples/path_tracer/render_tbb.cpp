@@ -9,13 +9,13 @@
 
 namespace path_tracer {
 
-render_result render_tbb(scene_view const& scene, render_settings const& settings,
+render_result render_tbb(host_scene const& scene, render_settings const& settings,
                          progress_function const& progress) {
   std::size_t const threads =
       settings.threads > 0 ? settings.threads
                            : static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   tbb::global_control const limit(tbb::global_control::max_allowed_parallelism, threads);
-  return integrate(thrust::tbb::par, scene, settings, progress);
+  return integrate(host_backend{thrust::tbb::par}, scene.view(), settings, progress);
 }
 
 }  // namespace path_tracer

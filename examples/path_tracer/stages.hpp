@@ -62,39 +62,65 @@ struct find_hits {
   }
 };
 
-/// Traces the shadow rays and adds the light that arrives; 1 for a path with a shadow ray.
+/// Traces the shadow rays and adds the light that arrives.
 struct trace_shadows {
   wave_view wave;
   bvh_view bvh;
 
-  PT_HD std::uint64_t operator()(request_index i) const {
-    if (wave.id[i] == finished || wave.shadow_light[i] == vec3{0}) return 0;
+  PT_HD void operator()(request_index i) const {
+    if (wave.shadow_light[i] == vec3{0}) return;
     if (!any_hit(bvh, {wave.shadow_origin[i], wave.shadow_vector[i], 1}))
       wave.radiance[i] += wave.shadow_light[i];
-    return 1;
   }
 };
 
+/// How many paths of a wave go on after a bounce, and how many had a shadow ray there.
+struct ray_count {
+  std::uint32_t extended, shadow;
+
+  /// From the sum of count_rays over the wave.
+  static ray_count unpacked(std::uint64_t sum) {
+    return {static_cast<std::uint32_t>(sum), static_cast<std::uint32_t>(sum >> 32)};
+  }
+};
+
+/// Both counts of a path in one number, so that one reduction finds them.
+struct count_rays {
+  wave_view wave;
+
+  PT_HD std::uint64_t operator()(request_index i) const {
+    std::uint64_t const extended = wave.throughput[i] == vec3{0} ? 0 : 1;
+    std::uint64_t const shadow = wave.shadow_light[i] == vec3{0} ? 0 : 1;
+    return shadow << 32 | extended;
+  }
+};
+
+PT_HD inline bool is_finite(vec3 c) {
+  float const total = c.x + c.y + c.z;
+  return total - total == 0;
+}
+
 /// Adds the samples that a wave has of a pixel to its sum, in the order of the samples and in
 /// double, so that the picture does not depend on the size of a wave. Leaves out samples that are
-/// not finite, and returns how many. Runs over the pixels of the wave, at most one per path.
+/// not finite. Runs over the pixels of the wave, at most one per path.
 struct accumulate_samples {
   wave_view wave;
   std::uint32_t paths;
   glm::dvec3* sums;
 
-  PT_HD std::uint64_t operator()(request_index i) const {
-    std::uint64_t discarded = 0;
+  PT_HD void operator()(request_index i) const {
     glm::dvec3& sum = sums[wave.pixel(i)];
-    for (std::uint64_t k = i; k < paths; k += wave.pixels) {
-      vec3 const c = wave.radiance[k];
-      float const total = c.x + c.y + c.z;
-      if (total - total == 0)
-        sum += glm::dvec3(c);
-      else
-        ++discarded;
-    }
-    return discarded;
+    for (std::uint64_t k = i; k < paths; k += wave.pixels)
+      if (is_finite(wave.radiance[k])) sum += glm::dvec3(wave.radiance[k]);
+  }
+};
+
+/// 1 for a sample that accumulate_samples leaves out.
+struct count_discarded {
+  wave_view wave;
+
+  PT_HD std::uint64_t operator()(request_index i) const {
+    return is_finite(wave.radiance[i]) ? 0 : 1;
   }
 };
 

@@ -42,7 +42,8 @@ inline constexpr bool keeps_order =
     std::is_same_v<Schedule, deferred_shade::implicit_serialization> ||
     std::is_same_v<Schedule, deferred_shade::explicit_serialization>;
 
-/// The requests of a wave in the order in which lanes take them.
+/// The requests of a wave in the order in which lanes take them: that of one thread of a CPU, which
+/// is also that of a GPU but for the end of a shader's requests, where a GPU starts a fresh warp.
 template <class Schedule>
 std::vector<deferred_shade::request_index> execution_order(Schedule const& schedule,
                                                            std::uint32_t paths,
@@ -60,14 +61,16 @@ std::vector<deferred_shade::request_index> execution_order(Schedule const& sched
   return order;
 }
 
-/// Fills the efficiencies of `b` from one wave: groups of 32 lanes, all shaders at one cost. A
-/// pixel with several samples in the wave shows the group of the first.
+/// Fills the efficiencies of `b` from one wave, whose ids are given in host memory: groups of 32
+/// lanes, all shaders at one cost. A pixel with several samples in the wave shows the group of the
+/// first.
 template <class Schedule>
-void measure_efficiency(Schedule const& schedule, std::uint32_t paths, wave_view const& wave,
-                        bounce& b) {
-  auto const order = execution_order(schedule, paths, wave.id);
+void measure_efficiency(Schedule const& schedule, std::vector<std::uint8_t> const& wave_ids,
+                        wave_view const& wave, bounce& b) {
+  auto const order =
+      execution_order(schedule, static_cast<std::uint32_t>(wave_ids.size()), wave_ids.data());
   std::vector<std::uint8_t> ids(order.size());
-  std::transform(order.begin(), order.end(), ids.begin(), [&](auto i) { return wave.id[i]; });
+  std::transform(order.begin(), order.end(), ids.begin(), [&](auto i) { return wave_ids[i]; });
   std::vector<double> const costs(shader_count, 1.0);
   deferred_shade::efficiency_model const model{costs.data(), shader_count};
   auto const count = static_cast<deferred_shade::request_index>(order.size());

@@ -101,13 +101,14 @@ inline scene room() {
   return s;
 }
 
-inline render_settings small(std::uint32_t samples, std::uint32_t depth) {
+inline render_settings small(std::uint32_t samples, std::uint32_t depth,
+                             std::string const& backend = "cpp") {
   render_settings settings;
   settings.width = 48;
   settings.height = 27;
   settings.samples = samples;
   settings.max_depth = depth;
-  settings.backend = "cpp";
+  settings.backend = backend;
   return settings;
 }
 

@@ -145,17 +145,20 @@ TEST_CASE("durations") {
 }
 
 TEST_CASE("every schedule renders the same picture, with table, report and heat maps") {
+  std::string const backend(GENERATE(from_range(backends())));
   temporary_folder const folder;
   write_bytes(folder / "scene.gltf", gltf_fixture().text());
-  outcome const result = run_path_tracer(
-      {folder / "scene.gltf", "-o", folder / "a.pfm", "--width", "40", "--height", "20", "--spp",
-       "2", "--schedule", "all", "--report", folder / "r.json", "--heatmap", folder / "heat/maps"});
-  CAPTURE(result.err, result.out);
+  outcome const result =
+      run_path_tracer({folder / "scene.gltf", "-o", folder / "a.pfm", "--width", "40", "--height",
+                       "20", "--spp", "2", "--backend", backend, "--schedule", "all", "--report",
+                       folder / "r.json", "--heatmap", folder / "heat/maps"});
+  CAPTURE(backend, result.err, result.out);
   REQUIRE(result.exit_code == 0);
   std::string const count = std::to_string(schedules().size());
   CHECK(result.out.find("all " + count + " pictures are bit-identical\n") != std::string::npos);
   CHECK(read_bytes(folder / "a.pfm").size() == 40 * 20 * 12 + 14);
   json const report = json::parse(read_bytes(folder / "r.json"));
+  CHECK(report["settings"]["backend"] == backend);
   REQUIRE(report["schedules"].size() == schedules().size());
   for (std::string_view const name : schedules()) {
     CHECK(result.out.find("\n" + std::string(name) + " ") != std::string::npos);

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "host_scene.hpp"
+
+namespace path_tracer {
+namespace {
+
+std::vector<float> srgb_table() {
+  std::vector<float> table;
+  for (int code = 0; code < 256; ++code)
+    table.push_back(srgb_to_linear(static_cast<float>(code) / 255.0f));
+  return table;
+}
+
+}  // namespace
+
+host_scene::host_scene(scene const& s)
+    : source(s), hierarchy(build_bvh(s.triangles)), lights(s), linear(srgb_table()) {}
+
+scene_view host_scene::view() const {
+  return {hierarchy.view(),
+          source.triangles.data(),
+          source.materials.data(),
+          {source.textures.data(), source.texels.data(), linear.data()},
+          lights.view(source.lights.data()),
+          &host_albedo_tables(),
+          source.view,
+          source.background};
+}
+
+}  // namespace path_tracer
