@@ -30,7 +30,7 @@ TEST_CASE("blocks cover a wave once, in order", "[blocks]") {
   }
 }
 
-TEMPLATE_LIST_TEST_CASE("every block is visited once", "[blocks]", test::backends) {
+TEMPLATE_LIST_TEST_CASE("every block is visited once", "[blocks]", test::host_backends) {
   block_partition const blocks(1000000, 3);
   std::vector<int> visits(blocks.count(), 0);
   deferred_shade::detail::for_each_block(TestType::policy(), blocks,

@@ -19,7 +19,26 @@ struct hit {
 
 struct scale {
   float factor;
-  float operator()(hit const& h) const { return factor * h.distance; }
+  DEFERRED_SHADE_HOST_DEVICE float operator()(hit const& h) const { return factor * h.distance; }
+};
+
+/// A request that is put together from two arrays.
+struct load_hit {
+  float const* distance;
+  std::uint8_t const* material;
+  DEFERRED_SHADE_HOST_DEVICE hit operator()(ds::request_index i) const {
+    return {distance[i], material[i]};
+  }
+};
+
+/// A result that is split over two arrays.
+struct store_whole_and_half {
+  float* whole;
+  float* half;
+  DEFERRED_SHADE_HOST_DEVICE void operator()(ds::request_index i, float result) const {
+    whole[i] = result;
+    half[i] = result / 2;
+  }
 };
 
 }  // namespace
@@ -39,24 +58,23 @@ TEST_CASE("a record shader is an index shader that knows its records", "[records
 
 TEMPLATE_LIST_TEST_CASE("records load from and store to functions as well", "[records]",
                         test::backends) {
-  // The request is put together from two arrays, and the result is split over two.
   std::uint32_t const n = 10007;
   std::uint32_t const seed = test::run_seed();
   CAPTURE(seed);
-  auto const ids = test::make_ids<std::uint8_t>(test::layout::random, n, 3, seed);
-  std::vector<float> distance(n);
+  auto const ids =
+      test::on<TestType>(test::make_ids<std::uint8_t>(test::layout::random, n, 3, seed));
+  auto distance = test::on<TestType>(std::vector<float>(n));
   for (std::uint32_t i = 0; i < n; ++i) distance[i] = static_cast<float>(i % 113);
-  std::vector<float> whole(n, -1);
-  std::vector<float> half(n, -1);
-  auto const load = [&](ds::request_index i) { return hit{distance[i], ids[i]}; };
-  auto const store = [&](ds::request_index i, float result) {
-    whole[i] = result;
-    half[i] = result / 2;
-  };
+  auto whole = test::on<TestType>(std::vector<float>(n, -1));
+  auto half = test::on<TestType>(std::vector<float>(n, -1));
   auto const exec = TestType::policy();
   ds::workspace scratch{exec};
   ds::shade(exec, ds::bucket_then_dispatch<>{}, n, ids.data(),
-            ds::record_shaders(load, store, scale{1}, scale{2}, scale{3}), scratch);
+            ds::record_shaders(load_hit{distance.data(), ids.data()},
+                               store_whole_and_half{whole.data(), half.data()}, scale{1}, scale{2},
+                               scale{3}),
+            scratch);
+  TestType::wait();
   for (std::uint32_t i = 0; i < n; ++i) {
     float const expected = ids[i] < 3 ? static_cast<float>(ids[i] + 1) * distance[i] : -1;
     REQUIRE(whole[i] == expected);

@@ -30,16 +30,22 @@ struct counting_shader {
   void operator()(ds::request_index) const { ++*calls; }
 };
 
+struct counting_runs {
+  int* runs;
+  DEFERRED_SHADE_HOST_DEVICE void operator()(ds::request_index i) const { ++runs[i]; }
+};
+
 }  // namespace
 
-TEST_CASE("shade refuses a count that no wave has", "[shade]") {
-  int calls = 0;
-  std::uint8_t const ids[1] = {0};
-  ds::workspace scratch{thrust::cpp::par};
+TEMPLATE_LIST_TEST_CASE("shade refuses a count that no wave has", "[shade]", test::backends) {
+  auto const exec = TestType::policy();
+  auto const ids = test::on<TestType>(std::vector<std::uint8_t>(1, 0));
+  auto runs = test::on<TestType>(std::vector<int>(1, 0));
+  ds::workspace scratch{exec};
   auto const shade = [&](auto n) {
     return [&, n] {
-      ds::shade(thrust::cpp::par, ds::sort_then_dispatch<>{}, n, ids,
-                ds::shader_table{counting_shader{&calls}}, scratch);
+      ds::shade(exec, ds::sort_then_dispatch<>{}, n, ids.data(),
+                ds::shader_table{counting_runs{runs.data()}}, scratch);
     };
   };
   CHECK(message_of<std::invalid_argument>(shade(-5)) ==
@@ -54,46 +60,68 @@ TEST_CASE("shade refuses a count that no wave has", "[shade]") {
   CHECK(message_of<std::invalid_argument>(
             shade(ds::device_count{static_cast<int const*>(nullptr), 1})) ==
         "deferred_shade::shade: the pointer of device_count is null");
-  int const three = 3;
-  CHECK(message_of<std::length_error>(shade(ds::device_count{&three, 2})) ==
-        "deferred_shade::shade: device_count points at 3 requests, above its maximum of 2");
-  int const negative = -1;
-  CHECK_THROWS_AS(shade(ds::device_count{&negative, 2})(), std::invalid_argument);
+  CHECK(message_of<std::length_error>(shade(ds::device_count{runs.data(), std::size_t{1} << 32})) ==
+        too_long);
 
-  CHECK(calls == 0);
+  TestType::wait();
+  CHECK(runs[0] == 0);
   CHECK(scratch.capacity() == 0);
   shade(1)();
-  CHECK(calls == 1);
+  TestType::wait();
+  CHECK(runs[0] == 1);
 }
 
-TEST_CASE("shade refuses null ids, unless there is no request", "[shade]") {
+TEST_CASE("shade refuses a device_count that is wrong, where the host can see it", "[shade]") {
   int calls = 0;
-  std::uint8_t const* const ids = nullptr;
+  std::uint8_t const ids[1] = {0};
   ds::workspace scratch{thrust::cpp::par};
+  auto const shade = [&](int const& count) {
+    return [&] {
+      ds::shade(thrust::cpp::par, ds::sort_then_dispatch<>{}, ds::device_count{&count, 2}, ids,
+                ds::shader_table{counting_shader{&calls}}, scratch);
+    };
+  };
+  int const three = 3;
+  CHECK(message_of<std::length_error>(shade(three)) ==
+        "deferred_shade::shade: device_count points at 3 requests, above its maximum of 2");
+  int const negative = -1;
+  CHECK_THROWS_AS(shade(negative)(), std::invalid_argument);
+  CHECK(calls == 0);
+  CHECK(scratch.capacity() == 0);
+}
+
+TEMPLATE_LIST_TEST_CASE("shade refuses null ids, unless there is no request", "[shade]",
+                        test::backends) {
+  auto const exec = TestType::policy();
+  auto runs = test::on<TestType>(std::vector<int>(3, 0));
+  std::uint8_t const* const ids = nullptr;
+  ds::workspace scratch{exec};
   test::for_each_schedule([&](auto schedule) {
     auto const shade = [&](int n) {
-      ds::shade(thrust::cpp::par, schedule, n, ids, ds::shader_table{counting_shader{&calls}},
-                scratch);
+      ds::shade(exec, schedule, n, ids, ds::shader_table{counting_runs{runs.data()}}, scratch);
     };
     shade(0);
     CHECK(message_of<std::invalid_argument>([&] { shade(3); }) ==
-          "deferred_shade::shade: ids is null, and n is 3");
+          "deferred_shade::shade: ids is null, and n is not 0");
   });
-  CHECK(calls == 0);
+  TestType::wait();
+  CHECK(runs == test::on<TestType>(std::vector<int>(3, 0)));
 }
 
 TEMPLATE_LIST_TEST_CASE("shade reads a device_count when it runs", "[shade]", test::backends) {
   auto const exec = TestType::policy();
   std::uint32_t const maximum = 1000;
-  std::vector<std::uint8_t> const ids(maximum, 0);
+  auto const ids = test::on<TestType>(std::vector<std::uint8_t>(maximum, 0));
+  auto count = test::on<TestType>(std::vector<std::uint32_t>(1));
   test::for_each_schedule([&](auto schedule) {
     ds::workspace scratch{exec};
-    for (std::uint32_t const count : {0U, 1U, 33U, 1000U}) {
-      std::vector<int> runs(maximum, 0);
-      auto const run = [&runs](ds::request_index i) { ++runs[i]; };
-      ds::shade(exec, schedule, ds::device_count{&count, maximum}, ids.data(),
-                ds::shader_table{run}, scratch);
-      for (std::uint32_t i = 0; i < maximum; ++i) REQUIRE(runs[i] == (i < count ? 1 : 0));
+    for (std::uint32_t const n : {0U, 1U, 33U, 1000U}) {
+      count[0] = n;
+      auto runs = test::on<TestType>(std::vector<int>(maximum, 0));
+      ds::shade(exec, schedule, ds::device_count{count.data(), maximum}, ids.data(),
+                ds::shader_table{counting_runs{runs.data()}}, scratch);
+      TestType::wait();
+      for (std::uint32_t i = 0; i < maximum; ++i) REQUIRE(runs[i] == (i < n ? 1 : 0));
     }
   });
 }
@@ -107,8 +135,8 @@ TEST_CASE("a table may have 256 shaders, all of which a byte names", "[shade]") 
   ds::workspace scratch{thrust::cpp::par};
   // One schedule for each way to group and to dispatch; such a table takes seconds to compile.
   auto const check = [&](auto schedule) {
-    test::check_against_loop<256>(thrust::cpp::par, schedule, n, bytes.data(), scratch);
-    test::check_against_loop<256>(thrust::cpp::par, schedule, n, words.data(), scratch);
+    test::check_against_loop<test::cpp, 256>(schedule, n, bytes.data(), scratch);
+    test::check_against_loop<test::cpp, 256>(schedule, n, words.data(), scratch);
   };
   check(ds::sort_then_dispatch<ds::implicit_serialization>{});
   check(ds::bucket_then_dispatch<>{});
@@ -116,17 +144,22 @@ TEST_CASE("a table may have 256 shaders, all of which a byte names", "[shade]") 
   check(ds::local_sort_then_dispatch<ds::bitonic>{});
 }
 
-TEST_CASE("waves of any size share a workspace, also after an error", "[shade]") {
-  ds::workspace scratch{thrust::cpp::par};
+TEMPLATE_LIST_TEST_CASE("waves of any size share a workspace, also after an error", "[shade]",
+                        test::backends) {
+  auto const exec = TestType::policy();
+  ds::workspace scratch{exec};
+  auto runs = test::on<TestType>(std::vector<int>(1, 0));
   test::for_each_schedule([&](auto schedule) {
     for (std::uint32_t const n : {70000U, 3U, 0U, 20000U}) {
-      auto const ids = test::make_ids<std::uint8_t>(test::layout::random, n, 5, n);
-      test::check_against_loop<5>(thrust::cpp::par, schedule, n, ids.data(), scratch);
-      int calls = 0;
-      CHECK_THROWS(ds::shade(thrust::cpp::par, schedule, -1, ids.data(),
-                             ds::shader_table{counting_shader{&calls}}, scratch));
+      auto const ids =
+          test::on<TestType>(test::make_ids<std::uint8_t>(test::layout::random, n, 5, n));
+      test::check_against_loop<TestType, 5>(schedule, n, ids.data(), scratch);
+      CHECK_THROWS(ds::shade(exec, schedule, -1, ids.data(),
+                             ds::shader_table{counting_runs{runs.data()}}, scratch));
     }
   });
+  TestType::wait();
+  CHECK(runs[0] == 0);
 }
 
 // Hidden, and run by name: they take their time, and a sanitizer many times as long.

@@ -31,17 +31,17 @@ double efficiency_by_definition(std::vector<std::uint8_t> const& ids,
   return held > 0 ? useful / (static_cast<double>(width) * held) : 1;
 }
 
-/// Whether group_efficiency is the definition, group by group.
-template <class Policy>
-bool groups_agree(Policy const& exec, std::vector<std::uint8_t> const& ids,
+/// Whether group_efficiency is the definition, group by group. `data` and `ids` are the same.
+template <class Backend>
+bool groups_agree(std::vector<std::uint8_t> const& data, std::uint8_t const* ids,
                   ds::efficiency_model const& model) {
   std::vector<double> const costs(model.costs, model.costs + model.shaders);
-  std::vector<float> groups((ids.size() + model.width - 1) / model.width, -1.0F);
-  ds::group_efficiency(exec, ids.size(), ids.data(), model, groups.data());
+  std::vector<float> groups((data.size() + model.width - 1) / model.width, -1.0F);
+  ds::group_efficiency(Backend::policy(), data.size(), ids, model, groups.data());
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    auto const begin = ids.begin() + static_cast<std::ptrdiff_t>(g * model.width);
-    auto const end = ids.begin() + static_cast<std::ptrdiff_t>(
-                                       std::min(ids.size(), (g + 1) * std::size_t{model.width}));
+    auto const begin = data.begin() + static_cast<std::ptrdiff_t>(g * model.width);
+    auto const end = data.begin() + static_cast<std::ptrdiff_t>(
+                                        std::min(data.size(), (g + 1) * std::size_t{model.width}));
     bool const empty = std::all_of(begin, end, [&](auto id) { return id >= model.shaders; });
     double const expected = efficiency_by_definition({begin, end}, costs, model.width);
     double const actual = static_cast<double>(groups[g]);
@@ -62,7 +62,7 @@ TEMPLATE_LIST_TEST_CASE("efficiency of two shaders is the paper's", "[statistics
   ds::efficiency_model const model{costs, 2};
   for (std::uint32_t n = 0; n <= 32; ++n) {
     CAPTURE(n);
-    std::vector<std::uint8_t> ids(32, 1);
+    auto ids = test::on<TestType>(std::vector<std::uint8_t>(32, 1));
     for (std::uint32_t i = 0; i < n; ++i) ids[i * 5 % 32] = 0;
     double const useful = n * 3 + (32 - n) * 7;
     double const held = 32 * ((n > 0 ? 3 : 0) + (n < 32 ? 7 : 0));
@@ -96,21 +96,22 @@ TEMPLATE_LIST_TEST_CASE("efficiency and occurrences agree with the definition", 
                         test::backends) {
   auto const exec = TestType::policy();
   std::vector<double> const costs{1, 2.5, 0.125, 17, 3};
-  for (std::uint32_t const n : test::edge_sizes()) {
+  for (std::uint32_t const n : test::edge_sizes<TestType>()) {
     for (test::layout const how : test::layouts) {
       for (std::uint32_t const width : {1U, 7U, 32U}) {
         std::uint32_t const seed = test::run_seed() + n;
         CAPTURE(n, static_cast<int>(how), width, seed);
-        auto const ids = test::make_ids<std::uint8_t>(how, n, 5, seed);
+        auto const data = test::make_ids<std::uint8_t>(how, n, 5, seed);
+        auto const ids = test::on<TestType>(data);
         ds::efficiency_model const model{costs.data(), 5, width};
         CHECK_THAT(ds::heterogeneous_efficiency(exec, n, ids.data(), model),
-                   WithinRel(efficiency_by_definition(ids, costs, width), 1e-12));
+                   WithinRel(efficiency_by_definition(data, costs, width), 1e-12));
 
         std::vector<std::uint64_t> histogram(6, 0);
-        for (auto const id : ids) ++histogram[id < 5 ? id : 5];
+        for (auto const id : data) ++histogram[id < 5 ? id : 5];
         CHECK(ds::count_occurrences(exec, n, ids.data(), 5, width).requests == histogram);
 
-        CHECK(groups_agree(exec, ids, model));
+        CHECK(groups_agree<TestType>(data, ids.data(), model));
       }
     }
   }
@@ -120,13 +121,14 @@ TEMPLATE_LIST_TEST_CASE("counts over many blocks are exact", "[statistics]", tes
   std::uint32_t const n = 200003;
   std::uint32_t const seed = test::run_seed();
   CAPTURE(seed);
-  auto const ids = test::make_ids<std::uint8_t>(test::layout::coherent, n, 5, seed);
+  auto const data = test::make_ids<std::uint8_t>(test::layout::coherent, n, 5, seed);
+  auto const ids = test::on<TestType>(data);
   std::vector<double> const costs{1, 2, 4, 8, 16};
   for (std::uint32_t const width : {32U, 1000U, 300000U}) {
     ds::efficiency_model const model{costs.data(), 5, width};
     CHECK_THAT(ds::heterogeneous_efficiency(TestType::policy(), n, ids.data(), model),
-               WithinRel(efficiency_by_definition(ids, costs, width), 1e-12));
-    CHECK(groups_agree(TestType::policy(), ids, model));
+               WithinRel(efficiency_by_definition(data, costs, width), 1e-12));
+    CHECK(groups_agree<TestType>(data, ids.data(), model));
   }
 }
 

@@ -5,10 +5,10 @@
 
 namespace {
 
-template <class Id, test::ds::shader_id Shaders, class Policy>
-void check(Policy const& exec) {
-  test::check_grouping_of<Id, Shaders>(
-      exec, [](auto const& policy, test::ds::request_index n, auto ids, auto& scratch) {
+template <class Backend, class Id, test::ds::shader_id Shaders>
+void check() {
+  test::check_grouping_of<Backend, Id, Shaders>(
+      [](auto const& policy, test::ds::request_index n, auto ids, auto& scratch) {
         return test::ds::group_by_bucket<Shaders>(policy, n, ids, scratch);
       });
 }
@@ -17,10 +17,16 @@ void check(Policy const& exec) {
 
 TEMPLATE_LIST_TEST_CASE("group_by_bucket is a stable sort by shader", "[grouping]",
                         test::backends) {
-  auto const exec = TestType::policy();
-  check<std::uint8_t, 1>(exec);
-  check<std::uint8_t, 5>(exec);
-  check<std::int16_t, 40>(exec);
-  check<std::uint32_t, 300>(exec);
-  check<std::int32_t, 2000>(exec);
+  check<TestType, std::uint8_t, 1>();
+  check<TestType, std::uint8_t, 5>();
+  check<TestType, std::int8_t, 11>();
+  check<TestType, std::int16_t, 32>();
+  check<TestType, std::uint16_t, 33>();
+  check<TestType, std::uint8_t, 200>();
+  check<TestType, std::uint8_t, 255>();
+  check<TestType, std::uint16_t, 256>();
+  check<TestType, std::uint16_t, 511>();
+  check<TestType, std::int16_t, 512>();
+  check<TestType, std::uint32_t, 1000>();
+  check<TestType, std::int32_t, 3000>();
 }

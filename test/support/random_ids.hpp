@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <limits>
 #include <random>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -21,13 +22,28 @@ inline std::uint32_t run_seed() {
   return seed;
 }
 
-/// Sizes of a wave on the edges: of a SIMD group, a bitonic tile, a counting tile, a block.
-inline std::vector<std::uint32_t> edge_sizes() {
-  return {0, 1, 2, 31, 32, 33, 63, 65, 255, 256, 257, 8191, 8192, 8193, 16383, 16384, 16385, 50021};
+/// Whether DEFERRED_SHADE_TEST_QUICK=1 asks for fewer sizes: under a tool that makes a test many
+/// times as slow.
+inline bool quick() {
+  char const* const text = std::getenv("DEFERRED_SHADE_TEST_QUICK");
+  return text && std::string_view(text) == "1";
+}
+
+/// Sizes of a wave on the edges: of a SIMD group or warp, a thread block, a bitonic tile, a
+/// counting tile, a block of block_partition; and one of several blocks or multiprocessors.
+template <class Backend>
+std::vector<std::uint32_t> edge_sizes() {
+  if (quick()) return {0, 1, 33, 257, 8193};
+  return {0,    1,    2,    31,   32,    33,    63,    65,
+          255,  256,  257,  1023, 1024,  1025,  4095,  4096,
+          4097, 8191, 8192, 8193, 16383, 16384, 16385, Backend::many_blocks};
 }
 
 /// Fewer of them, for the tenth type of id.
-inline std::vector<std::uint32_t> some_sizes() { return {0, 1, 33, 257, 8193, 16385}; }
+inline std::vector<std::uint32_t> some_sizes() {
+  if (quick()) return {0, 257, 8193};
+  return {0, 1, 33, 257, 8193, 16385};
+}
 
 /// How ids lie in a wave.
 enum class layout {
