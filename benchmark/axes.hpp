@@ -3,115 +3,147 @@
 
 #include <benchmark/benchmark.h>
 
-#include <thrust/execution_policy.h>
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
-#include <deferred_shade/deferred_shade.hpp>
-#include <iostream>
-#include <random>
+#include <exception>
 #include <string>
 #include <vector>
 
-/// What the benchmarks vary: the shaders, the coherence of the ids, the size of the wave.
-namespace axes {
+#include "machine.hpp"
 
-namespace ds = deferred_shade;
+/// What the benchmarks vary, how they measure, and their main function. The sets of shaders are in
+/// schedules.cpp.
+namespace bench {
 
-/// The policy of the machine that the build chose (DEFERRED_SHADE_DEVICE_SYSTEM).
-inline auto const& policy() { return thrust::device; }
+/// Values of the axes; `--quick` takes a few of them.
+struct axes {
+  /// The number of requests: for a GPU, from what fits in its cache to what does not.
+  std::vector<std::size_t> sizes;
+  /// The mean length of a stretch of one id; 1 is fully random.
+  std::vector<std::uint32_t> runs;
+};
 
-/// The mean length of a stretch of one id; 1 is fully random.
-inline std::vector<std::int64_t> run_lengths() { return {1, 4, 32, 512}; }
-
-/// The number of requests; `--quick` takes the smallest alone.
-inline std::vector<std::int64_t>& sizes() {
-  static std::vector<std::int64_t> list{1 << 17, 1 << 20, 1 << 23};
-  return list;
+inline std::size_t operator""_mi(unsigned long long n) {
+  return static_cast<std::size_t>(n) * 1024 * 1024;
 }
 
-/// `n` ids over `shaders` shaders, in stretches of `run_length` on average.
-inline std::vector<std::uint8_t> make_ids(std::size_t n, std::uint32_t shaders,
-                                          std::int64_t run_length) {
-  std::mt19937 engine(7);
-  std::vector<std::uint8_t> ids(n);
-  std::uint8_t current = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    bool const next = i == 0 || engine() % static_cast<std::uint64_t>(run_length) == 0;
-    if (next) current = static_cast<std::uint8_t>(engine() % shaders);
-    ids[i] = current;
-  }
-  return ids;
+inline axes schedule_axes(bool quick) {
+  if (quick) return {on_cuda ? std::vector{1_mi, 8_mi} : std::vector{1_mi / 32}, {1, 32}};
+  axes all{{1_mi / 8, 1_mi, 8_mi}, {1, 4, 32, 512}};
+  if (on_cuda) all.sizes.push_back(32_mi);
+  return all;
 }
 
-/// 32 bytes in, 16 bytes out.
-struct request {
-  float position[3];
-  float normal[3];
-  float u, v;
-};
-struct result {
-  float radiance[3];
-  float throughput;
-};
-
-/// A few operations: the simple shaders of the paper's first scenes.
-template <int Id>
-struct simple {
-  result operator()(request const& r) const {
-    float const cosine = r.normal[0] * 0.48F + r.normal[1] * 0.6F + r.normal[2] * 0.64F;
-    float const shade = (0.2F + 0.05F * Id) * (cosine > 0 ? cosine : 0);
-    return {{shade, shade * (0.9F - 0.01F * Id), shade * 0.5F}, cosine};
-  }
-};
-
-/// About a hundred operations: a microfacet lobe whose roughness follows a stripe pattern.
-template <int Id>
-struct moderate {
-  result operator()(request const& r) const {
-    float stripe = 0;
-    for (int octave = 0; octave < 4; ++octave) {
-      float const x = (r.u + 0.37F * Id) * static_cast<float>(1 << octave) + r.v;
-      float const f = x - std::floor(x);
-      stripe += f * f * (3 - 2 * f) / static_cast<float>(1 << octave);
-    }
-    float const alpha = 0.05F + 0.02F * Id + 0.1F * stripe;
-    float const cosine = std::abs(r.normal[2]);
-    float const d = cosine * cosine * (alpha * alpha - 1) + 1;
-    float const lobe = alpha * alpha / (3.14159265F * d * d);
-    float const masking = 2 * cosine / (cosine + std::sqrt(alpha + (1 - alpha) * cosine * cosine));
-    return {{lobe * masking, lobe * stripe, masking * stripe}, d};
-  }
-};
-
-template <template <int> class Shader, class Requests, class Results, int... Ids>
-auto table(Requests requests, Results results, std::integer_sequence<int, Ids...>) {
-  return ds::record_shaders(requests, results, Shader<Ids>{}...);
+inline axes grouping_axes(bool quick) {
+  if (quick) return {on_cuda ? std::vector{1_mi, 16_mi} : std::vector{1_mi / 8}, {1, 32}};
+  axes all{{1_mi, 8_mi, 16_mi}, {1, 32}};
+  if (on_cuda) all.sizes.push_back(64_mi);
+  return all;
 }
 
-/// Ends a benchmark as an error where `good` does not hold: a wrong answer has no time.
+/// The end of a cell's name.
+inline std::string name_of(std::size_t n, std::uint32_t run) {
+  return "/n:" + std::to_string(n) + "/run:" + std::to_string(run);
+}
+
+/// Times `call`, which handles `requests` requests: the cell's time is the median of the timed
+/// calls after a few that are not timed; the times a tenth from either end of them are counters.
+///
+/// Google Benchmark sees this as one iteration. Its own choice of a number of iterations would take
+/// half a second for each of thousands of cells and report their mean, which one hiccup spoils.
+template <class Function>
+void measure(benchmark::State& state, std::size_t requests, Function const& call) {
+  int const warm_ups = on_cuda ? 3 : 1;
+  int const timed = on_cuda ? 15 : 5;
+  for (auto _ : state) {
+    for (int i = 0; i < warm_ups; ++i) call();
+    std::vector<double> seconds = seconds_per_call(call, timed);
+    std::sort(seconds.begin(), seconds.end());
+    std::size_t const tenth = seconds.size() / 10;
+    state.SetIterationTime(seconds[seconds.size() / 2]);
+    state.counters["p10_us"] = 1e6 * seconds[tenth];
+    state.counters["p90_us"] = 1e6 * seconds[seconds.size() - 1 - tenth];
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(requests));
+}
+
+/// The number of cells whose answer was wrong.
+inline int& wrong_answers() {
+  static int count = 0;
+  return count;
+}
+
+/// Ends a cell as an error where `good` does not hold: a wrong answer has no time.
 inline bool check(benchmark::State& state, bool good) {
-  if (!good) state.SkipWithError("the answer is wrong");
+  if (!good) {
+    ++wrong_answers();
+    state.SkipWithError("the answer is wrong");
+  }
   return good;
 }
 
-/// Runs the registered benchmarks; `--quick` keeps to small waves and short times.
-inline int run(int argc, char** argv, void (*register_all)()) {
+/// Registers `cell(state)`. A cell that throws, for want of memory say, is skipped with an error.
+template <class Cell>
+void add_cell(std::string const& name, Cell cell) {
+  benchmark::RegisterBenchmark(name.c_str(),
+                               [cell](benchmark::State& state) {
+                                 try {
+                                   cell(state);
+                                 } catch (std::exception const& error) {
+                                   state.SkipWithError(error.what());
+                                 }
+                               })
+      ->Iterations(1)
+      ->UseManualTime()
+      ->Unit(benchmark::kMicrosecond);
+}
+
+inline std::string version_of(int number, int major, int minor) {
+  return std::to_string(number / major) + "." + std::to_string(number % major / minor);
+}
+
+/// Says in the report what was measured, and on what.
+inline void add_context() {
+  benchmark::AddCustomContext("machine", machine_name());
+  benchmark::AddCustomContext("deferred_shade", version_of(DEFERRED_SHADE_VERSION, 10000, 100));
+  benchmark::AddCustomContext("thrust", version_of(THRUST_VERSION, 100000, 100));
+#ifdef __CUDACC__
+  int driver = 0;
+  int runtime = 0;
+  check_cuda(cudaDriverGetVersion(&driver));
+  check_cuda(cudaRuntimeGetVersion(&runtime));
+  benchmark::AddCustomContext("cuda_driver", version_of(driver, 1000, 10));
+  benchmark::AddCustomContext("cuda_runtime", version_of(runtime, 1000, 10));
+  benchmark::AddCustomContext("nvcc", std::to_string(__CUDACC_VER_MAJOR__) + "." +
+                                          std::to_string(__CUDACC_VER_MINOR__) + "." +
+                                          std::to_string(__CUDACC_VER_BUILD__));
+#endif
+#ifdef __VERSION__
+  benchmark::AddCustomContext("compiler", __VERSION__);
+#endif
+#ifdef DEFERRED_SHADE_COMMIT
+  benchmark::AddCustomContext("commit", DEFERRED_SHADE_COMMIT);
+#endif
+}
+
+/// The main function: `register_cells(quick)`, then Google Benchmark with the other arguments.
+/// Returns 1 where a cell's answer was wrong, 2 where an argument is unknown.
+template <class Function>
+int run(int argc, char** argv, Function const& register_cells) {
   std::vector<char*> arguments(argv, argv + argc);
-  std::string min_time = "--benchmark_min_time=0.01";
-  for (auto argument = arguments.begin() + 1; argument != arguments.end(); ++argument) {
-    if (std::strcmp(*argument, "--quick") != 0) continue;
-    *argument = min_time.data();
-    sizes() = {1 << 17};
-    break;
-  }
-  register_all();
+  auto const quick = std::remove_if(arguments.begin() + 1, arguments.end(),
+                                    [](char const* a) { return std::strcmp(a, "--quick") == 0; });
+  bool const is_quick = quick != arguments.end();
+  arguments.erase(quick, arguments.end());
   int count = static_cast<int>(arguments.size());
   benchmark::Initialize(&count, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;
+  add_context();
+  register_cells(is_quick);
   benchmark::RunSpecifiedBenchmarks();
-  return 0;
+  benchmark::Shutdown();
+  return wrong_answers() == 0 ? 0 : 1;
 }
 
-}  // namespace axes
+}  // namespace bench

@@ -1,98 +1,132 @@
 // SPDX-License-Identifier: Apache-2.0
-// Grouping alone: ids to a stable permutation, next to Thrust's own stable sort and to a copy of
-// the ids and of as many indices, which no grouping can be faster than.
-#include <thrust/sequence.h>
-#include <thrust/sort.h>
-
-#include <algorithm>
+// Grouping alone: ids of 8 bits to a stable permutation, next to what a renderer would do without
+// the library, and to a copy (baselines.hpp).
+// The names of cells: shaders / way to group / n: requests / run: mean length of a stretch of one
+// id. benchmark/ratios.py makes tables of them.
+#include <thrust/transform_reduce.h>
 
 #include "axes.hpp"
+#include "baselines.hpp"
+#include "wave.hpp"
 
 namespace {
 
-using axes::ds::request_index;
-constexpr axes::ds::shader_id shaders = 11;
+namespace ds = bench::ds;
+using bench::request_index;
 
-bool is_stable_permutation(std::vector<std::uint8_t> const& ids, request_index const* permutation) {
-  for (std::size_t p = 1; p < ids.size(); ++p) {
-    auto const a = permutation[p - 1];
-    auto const b = permutation[p];
-    if (ids[a] > ids[b] || (ids[a] == ids[b] && a >= b)) return false;
+template <ds::shader_id Shaders>
+struct bucket {
+  request_index n;
+  ds::grouping operator()(std::uint8_t const* ids) const {
+    return ds::group_by_bucket<Shaders>(bench::policy(), n, ids, bench::scratch());
   }
-  return true;
-}
+};
 
+template <ds::shader_id Shaders>
+struct radix_sort {
+  request_index n;
+  ds::grouping operator()(std::uint8_t const* ids) const {
+    return ds::group_by_radix_sort<Shaders>(bench::policy(), n, ids, bench::scratch());
+  }
+};
+
+template <ds::shader_id Shaders>
+struct compaction {
+  request_index n;
+  ds::grouping operator()(std::uint8_t const* ids) const {
+    return ds::group_by_compaction<Shaders>(bench::policy(), n, ids, bench::scratch());
+  }
+};
+
+/// Whether position p of a grouping does not follow on the one before, or lies outside its segment.
+struct misplaced {
+  std::uint8_t const* ids;
+  ds::grouping group;
+  request_index n;
+  DEFERRED_SHADE_HOST_DEVICE int operator()(request_index p) const {
+    request_index const i = group.permutation[p];
+    if (i >= n) return 1;
+    std::uint8_t const id = ids[i];
+    if (group.offsets != nullptr && (p < group.offsets[id] || p >= group.offsets[id + 1])) return 1;
+    if (p == 0) return 0;
+    request_index const before = group.permutation[p - 1];
+    if (before >= n) return 1;
+    return ids[before] < id || (ids[before] == id && before < i) ? 0 : 1;
+  }
+};
+
+/// Whether a way to group finds the stable grouping: n positions of which each follows on the one
+/// before are all different, and so hold every request.
 template <class Group>
-void grouping(benchmark::State& state, Group const& group) {
-  auto const n = static_cast<std::size_t>(state.range(0));
-  auto const ids = axes::make_ids(n, shaders, state.range(1));
-  axes::ds::workspace scratch{axes::policy()};
-  auto const run = [&] { return group(static_cast<request_index>(n), ids.data(), scratch); };
-  if (!axes::check(state, is_stable_permutation(ids, run().permutation))) return;
-  for (auto _ : state) benchmark::DoNotOptimize(run());
-  state.SetItemsProcessed(state.iterations() * state.range(0));
-}
-
-void bucket(benchmark::State& state) {
-  grouping(state, [](auto n, auto ids, auto& scratch) {
-    return axes::ds::group_by_bucket<shaders>(axes::policy(), n, ids, scratch);
-  });
-}
-
-void radix_sort(benchmark::State& state) {
-  grouping(state, [](auto n, auto ids, auto& scratch) {
-    return axes::ds::group_by_radix_sort<shaders>(axes::policy(), n, ids, scratch);
-  });
-}
-
-void compaction(benchmark::State& state) {
-  grouping(state, [](auto n, auto ids, auto& scratch) {
-    return axes::ds::group_by_compaction<shaders>(axes::policy(), n, ids, scratch);
-  });
-}
-
-template <class Key>
-void thrust_stable_sort_by_key(benchmark::State& state) {
-  std::vector<Key> keys(static_cast<std::size_t>(state.range(0)));
-  std::vector<request_index> permutation(keys.size());
-  grouping(state, [&](auto n, auto ids, auto&) {
-    thrust::copy_n(axes::policy(), ids, n, keys.begin());
-    thrust::sequence(axes::policy(), permutation.begin(), permutation.end());
-    thrust::stable_sort_by_key(axes::policy(), keys.begin(), keys.end(), permutation.begin());
-    return axes::ds::grouping{permutation.data(), nullptr};
-  });
-}
-
-void copy_ids_and_indices(benchmark::State& state) {
-  auto const n = static_cast<std::size_t>(state.range(0));
-  std::vector<std::uint8_t> const ids = axes::make_ids(n, shaders, state.range(1));
-  std::vector<std::uint8_t> id_copy(n);
-  std::vector<request_index> const indices(n, 1);
-  std::vector<request_index> index_copy(n);
-  for (auto _ : state) {
-    thrust::copy_n(axes::policy(), ids.begin(), n, id_copy.begin());
-    thrust::copy_n(axes::policy(), indices.begin(), n, index_copy.begin());
-    benchmark::ClobberMemory();
+bool is_right(Group& group, std::uint8_t const* ids, std::size_t n) {
+  if constexpr (std::is_same_v<decltype(group(ids)), ds::grouping>) {
+    thrust::counting_iterator<request_index> const positions(0);
+    misplaced const wrong{ids, group(ids), static_cast<request_index>(n)};
+    return thrust::transform_reduce(bench::policy(), positions,
+                                    positions + static_cast<std::ptrdiff_t>(n), wrong, 0,
+                                    thrust::plus<int>{}) == 0;
+  } else {
+    group(ids);
+    return group.is_right(ids);
   }
-  if (!axes::check(state, id_copy == ids && index_copy == indices)) return;
-  state.SetItemsProcessed(state.iterations() * state.range(0));
 }
 
-void register_all() {
-  auto const add = [](char const* name, void (*function)(benchmark::State&)) {
-    benchmark::RegisterBenchmark(name, function)
-        ->ArgsProduct({axes::sizes(), axes::run_lengths()})
-        ->ArgNames({"n", "run"})
-        ->UseRealTime();
-  };
-  add("copy_ids_and_indices", copy_ids_and_indices);
-  add("bucket", bucket);
-  add("radix_sort", radix_sort);
-  add("compaction", compaction);
-  add("thrust_stable_sort_by_key<u8>", thrust_stable_sort_by_key<std::uint8_t>);
-  add("thrust_stable_sort_by_key<u32>", thrust_stable_sort_by_key<std::uint32_t>);
+/// What varies from cell to cell.
+struct wave_shape {
+  ds::shader_id shaders;
+  std::size_t n;
+  std::uint32_t run;
+};
+
+template <class Make>
+void add(wave_shape shape, std::string const& name, Make make) {
+  bench::add_cell(
+      std::to_string(shape.shaders) + " shaders/" + name + bench::name_of(shape.n, shape.run),
+      [=](benchmark::State& state) {
+        auto const ids = bench::make_ids(shape.n, shape.shaders, shape.run);
+        auto group = make(shape);
+        if (!bench::check(state, is_right(group, bench::raw(ids), shape.n))) return;
+        bench::measure(state, shape.n, [&] { group(bench::raw(ids)); });
+      });
+}
+
+/// A way to group that is made for a number of requests, or for that and a number of shaders.
+template <class Group>
+auto for_size() {
+  return [](wave_shape shape) { return Group{static_cast<request_index>(shape.n)}; };
+}
+template <class Group>
+auto for_shape() {
+  return [](wave_shape shape) { return Group(shape.n, shape.shaders); };
+}
+
+template <ds::shader_id Shaders>
+void add_all(std::size_t n, std::uint32_t run) {
+  wave_shape const shape{Shaders, n, run};
+  add(shape, "copy-5-bytes", for_shape<bench::copy_5_bytes>());
+  add(shape, "bucket", for_size<bucket<Shaders>>());
+  add(shape, "radix-sort", for_size<radix_sort<Shaders>>());
+  // One pass per shader, and memory for all requests per shader: not for large tables.
+  if constexpr (Shaders <= 32) add(shape, "compaction", for_size<compaction<Shaders>>());
+#ifdef __CUDACC__
+  if constexpr (Shaders <= 32) add(shape, "queue-push", for_shape<bench::queue_push>());
+  add(shape, "cub-radix-sort", for_shape<bench::cub_radix_sort>());
+#endif
+  add(shape, "thrust-sort-u32", for_shape<bench::thrust_sort>());
 }
 
 }  // namespace
 
-int main(int argc, char** argv) { return axes::run(argc, argv, register_all); }
+int main(int argc, char** argv) {
+  return bench::run(argc, argv, [](bool quick) {
+    auto const [sizes, runs] = bench::grouping_axes(quick);
+    for (std::size_t const n : sizes) {
+      for (std::uint32_t const run : runs) {
+        add_all<4>(n, run);
+        add_all<11>(n, run);
+        add_all<32>(n, run);
+        add_all<256>(n, run);
+      }
+    }
+  });
+}

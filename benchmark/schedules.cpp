@@ -1,76 +1,86 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every schedule over sets of shaders and coherences of ids; compare with implicit_serialization of
-// the same run. The rows "sorted" are implicit_serialization over ids that already lie sorted.
-#include <algorithm>
+// Every schedule over sets of shaders, kinds of shaders, coherences of ids and sizes of waves, and
+// as controls:
+//   oracle-launches   requests that already lie sorted in memory, nothing to schedule: a launch per
+//   oracle-switch     shader, or one launch with a switch
+//   implicit          requests as they come, nothing scheduled: itself one of the schedules
+//   known-counts      bucket+explicit with counts that the host knows (GPU only)
+// The names of cells: set of shaders / kind of shaders / row / n: requests / run: mean length of a
+// stretch of one id. benchmark/ratios.py makes tables of them. On a few CPU cores, all of them take
+// hours: name some with --benchmark_filter, or give --quick.
+#include <memory>
+#include <utility>
 
 #include "axes.hpp"
+#include "rows.hpp"
 
 namespace {
 
-template <template <int> class Shader, int Shaders, class Schedule>
-void schedule(benchmark::State& state, bool sorted) {
-  auto const n = static_cast<std::size_t>(state.range(0));
-  auto ids = axes::make_ids(n, Shaders, state.range(1));
-  if (sorted) std::sort(ids.begin(), ids.end());
-  std::mt19937 engine(3);
-  std::uniform_real_distribution<float> uniform(-1, 1);
-  std::vector<axes::request> requests(n);
-  for (auto& r : requests) {
-    r = {{uniform(engine), uniform(engine), uniform(engine)},
-         {uniform(engine), uniform(engine), uniform(engine)},
-         uniform(engine),
-         uniform(engine)};
+struct shader_set {
+  std::string name;
+  bench::row_list list;
+};
+
+std::vector<shader_set> shader_sets() {
+  return {{"3 simple", bench::rows_of<bench::shader_set<3, 0, 0>>()},
+          {"6 simple", bench::rows_of<bench::shader_set<6, 0, 0>>()},
+          {"2 simple + 2 procedural", bench::rows_of<bench::shader_set<2, 0, 2>>()},
+          {"3 simple + 2 procedural", bench::rows_of<bench::shader_set<3, 0, 2>>()},
+          {"11 moderate", bench::rows_of<bench::shader_set<0, 11, 0>>()},
+          {"12 mixed", bench::rows_of<bench::shader_set<2, 6, 4>>()},
+          {"32 mixed", bench::rows_of<bench::shader_set<8, 16, 8>>()}};
+}
+
+/// The wave of the cells that are running: consecutive cells share one.
+struct current_wave {
+  std::string name;
+  std::unique_ptr<bench::wave> wave;
+
+  /// The wave `name_`, its reference checked; null where that is wrong.
+  template <class Make>
+  bench::wave* get(std::string const& name_, Make const& make) {
+    if (name != name_) {
+      name.clear();
+      wave.reset();  // before the next one takes memory
+      wave = make();
+      name = name_;
+    }
+    return wave.get();
   }
-  std::vector<axes::result> results(n);
-  std::vector<axes::result> expected(n);
-  using indices = std::make_integer_sequence<int, Shaders>;
-  auto const reference = axes::table<Shader>(requests.data(), expected.data(), indices());
-  for (std::size_t i = 0; i < n; ++i)
-    reference.run(ids[i], static_cast<axes::ds::request_index>(i));
+};
 
-  auto const shaders = axes::table<Shader>(requests.data(), results.data(), indices());
-  axes::ds::workspace scratch{axes::policy()};
-  auto const run = [&] {
-    axes::ds::shade(axes::policy(), Schedule{}, n, ids.data(), shaders, scratch);
-    benchmark::ClobberMemory();
-  };
-  run();
-  if (!axes::check(state,
-                   std::memcmp(results.data(), expected.data(), n * sizeof(axes::result)) == 0)) {
-    return;
+/// `current` and `set` are used as long as cells run.
+void add_cells(current_wave& current, shader_set const& set, std::size_t n, std::uint32_t run) {
+  std::string const end = bench::name_of(n, run);
+  for (bench::row const& row : set.list.rows) {
+    auto const cell = [&current, &set, &row, n, run, end](benchmark::State& state) {
+      auto* const wave = current.get(set.name + end, [&] {
+        auto made = std::make_unique<bench::wave>(n, set.list.shaders, run);
+        auto const& implicit = *std::find_if(
+            set.list.rows.begin(), set.list.rows.end(),
+            [](bench::row const& candidate) { return candidate.schedule == "implicit"; });
+        bool const right = made->take_reference(implicit.shade, set.list.plain_loop);
+        return right ? std::move(made) : nullptr;
+      });
+      if (!bench::check(state, wave != nullptr && wave->agrees(row.shade, row.sorted))) return;
+      bench::view const requests = wave->requests(row.sorted);
+      bench::measure(state, n, [&] { row.shade(requests); });
+    };
+    bench::add_cell(set.name + "/" + row.shaders + "/" + row.schedule + end, cell);
   }
-  for (auto _ : state) run();
-  state.SetItemsProcessed(state.iterations() * state.range(0));
-}
-
-template <template <int> class Shader, int Shaders, class Schedule>
-void add(std::string const& set, std::string const& name, bool sorted = false) {
-  benchmark::RegisterBenchmark((set + "/" + name).c_str(), schedule<Shader, Shaders, Schedule>,
-                               sorted)
-      ->ArgsProduct({axes::sizes(), axes::run_lengths()})
-      ->ArgNames({"n", "run"})
-      ->UseRealTime();
-}
-
-template <template <int> class Shader, int Shaders>
-void add_all(std::string const& set) {
-  using namespace axes::ds;
-  add<Shader, Shaders, implicit_serialization>(set, "implicit");
-  add<Shader, Shaders, implicit_serialization>(set, "sorted", true);
-  add<Shader, Shaders, explicit_serialization>(set, "explicit");
-  add<Shader, Shaders, compact_then_dispatch<>>(set, "compact+explicit");
-  add<Shader, Shaders, sort_then_dispatch<>>(set, "sort+explicit");
-  add<Shader, Shaders, bucket_then_dispatch<>>(set, "bucket+explicit");
-  add<Shader, Shaders, bucket_then_dispatch<implicit_serialization>>(set, "bucket+implicit");
-  add<Shader, Shaders, local_sort_then_dispatch<bitonic>>(set, "local-bitonic");
-  add<Shader, Shaders, local_sort_then_dispatch<>>(set, "local");
-}
-
-void register_all() {
-  add_all<axes::simple, 3>("3 simple");
-  add_all<axes::moderate, 11>("11 moderate");
 }
 
 }  // namespace
 
-int main(int argc, char** argv) { return axes::run(argc, argv, register_all); }
+int main(int argc, char** argv) {
+  current_wave current;
+  std::vector<shader_set> const sets = shader_sets();
+  return bench::run(argc, argv, [&](bool quick) {
+    auto const [sizes, runs] = bench::schedule_axes(quick);
+    for (std::size_t const n : sizes) {
+      for (auto const& set : sets) {
+        for (std::uint32_t const run : runs) add_cells(current, set, n, run);
+      }
+    }
+  });
+}
