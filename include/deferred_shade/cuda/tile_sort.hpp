@@ -13,8 +13,8 @@
 namespace deferred_shade::detail {
 
 /// A stable counting sort of a tile of `Threads * Items` requests by one thread block, by the
-/// shaders that they name; those that name none go to the end, or to place `size`, which is behind
-/// it. A warp owns neighbouring requests and takes them 32 at a time.
+/// shaders that they name; those that name none go to the end. A warp owns neighbouring requests
+/// and takes them 32 at a time.
 ///
 /// Up to 32 shaders, a lane of every warp looks after each shader; for more, CUB ranks the ids.
 template <shader_id Shaders, std::uint32_t Threads, std::uint32_t Items>
@@ -48,6 +48,11 @@ class tile_sort {
     load_rows<Shaders>(ids, first + mine, mine < count ? count - mine : 0, keys);
   }
 
+  /// Whether a request has a place. With 32 shaders, no lane ranks those that name none.
+  __device__ static bool has_place(std::uint32_t key) {
+    return Shaders != warp_size || key != Shaders;
+  }
+
   /// Computes the place of each of this thread's requests in the sorted tile, and `starts[k]`, in
   /// shared memory: the place of the first request of shader k. Called by all threads of the block;
   /// a barrier must follow.
@@ -74,7 +79,6 @@ class tile_sort {
 #pragma unroll
       for (std::uint32_t item = 0; item < Items; ++item) {
         places[item] += __shfl_sync(all_lanes, begin, static_cast<int>(keys[item]));
-        if (Shaders == warp_size && keys[item] == Shaders) places[item] = size;
       }
     } else {
       constexpr std::uint32_t bins = ranker::BINS_TRACKED_PER_THREAD;

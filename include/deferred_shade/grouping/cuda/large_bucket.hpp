@@ -51,7 +51,7 @@ __global__ void __launch_bounds__(bucket_threads, 3)
   using sort = tile_sort<Shaders, bucket_threads, bucket_items>;
   __shared__ union {
     typename sort::temporary_storage sorting;
-    std::uint32_t slots[sort::size + 1];  // the sorted tile: the shader above the position
+    std::uint32_t slots[sort::size];  // the sorted tile: the shader above the position
   } shared;
   __shared__ std::uint32_t starts[sort::columns];
   __shared__ std::uint32_t shift[Shaders];  // from places in the tile to places in the wave

@@ -112,8 +112,7 @@ __global__ void __launch_bounds__(bucket_threads, 4)
     small_bucket_place_kernel(Count n, Ids ids, std::uint32_t const* counts,
                               std::uint32_t const* totals, bucket_output output) {
   __shared__ std::uint32_t counts_of_warps[bucket_warps][warp_size];
-  __shared__ std::uint32_t
-      slots[bucket_tile + 1];  // the sorted tile: the shader above the position
+  __shared__ std::uint32_t slots[bucket_tile];  // the sorted tile: the shader above the position
   std::uint32_t const lane = threadIdx.x % warp_size;
   std::uint32_t const warp = threadIdx.x / warp_size;
   tile_of_block const tile(size_of(n));
@@ -140,8 +139,9 @@ __global__ void __launch_bounds__(bucket_threads, 4)
 #pragma unroll
   for (std::uint32_t row = 0; row < bucket_items; ++row) {
     std::uint32_t const key = keys[row];
-    std::uint32_t slot = __shfl_sync(all_lanes, begin, static_cast<int>(key)) + ranks[row];
-    if (Shaders == warp_size && key == Shaders) slot = bucket_tile;  // read by no one
+    std::uint32_t const slot = __shfl_sync(all_lanes, begin, static_cast<int>(key)) + ranks[row];
+    // With 32 shaders, no lane has ranked the requests that name none.
+    if (Shaders == warp_size && key == Shaders) continue;
     slots[slot] = key << 16 | (mine + row * warp_size);
   }
 

@@ -33,7 +33,7 @@ __global__ void __launch_bounds__(tile_threads)
   __shared__ typename sort::temporary_storage temporary;
   __shared__ std::uint32_t starts[sort::columns];
   __shared__ tile_rows<sort> rows;
-  __shared__ std::uint16_t order[sort::size + 1];
+  __shared__ std::uint16_t order[sort::size];
   std::size_t const tile = std::size_t{blockIdx.x} * sort::size;
   std::size_t const end = size_of(n);
   if (tile >= end) return;
@@ -47,7 +47,8 @@ __global__ void __launch_bounds__(tile_threads)
   __syncthreads();
 #pragma unroll
   for (std::uint32_t item = 0; item < tile_items; ++item) {
-    order[places[item]] = static_cast<std::uint16_t>(sort::position(item));
+    if (sort::has_place(keys[item]))
+      order[places[item]] = static_cast<std::uint16_t>(sort::position(item));
   }
   rows.find(starts);
   __syncthreads();

@@ -37,7 +37,7 @@ __global__ void __launch_bounds__(staged_threads)
   __shared__ typename sort::temporary_storage temporary;
   __shared__ std::uint32_t starts[sort::columns];
   __shared__ tile_rows<sort> rows;
-  __shared__ std::uint16_t order[sort::size + 1];  // the positions of the requests, sorted
+  __shared__ std::uint16_t order[sort::size];      // the positions of the requests, sorted
   __shared__ std::uint16_t shader_at[sort::size];  // the shader of the request at a position
   __shared__ alignas(source_type) unsigned char sources[sizeof...(Shaders)][sizeof(source_type)];
   __shared__ alignas(sink_type) unsigned char sinks[sizeof...(Shaders)][sizeof(sink_type)];
@@ -76,7 +76,7 @@ __global__ void __launch_bounds__(staged_threads)
 #pragma unroll
   for (std::uint32_t item = 0; item < Items; ++item) {
     std::uint32_t const position = sort::position(item);
-    order[places[item]] = static_cast<std::uint16_t>(position);
+    if (sort::has_place(keys[item])) order[places[item]] = static_cast<std::uint16_t>(position);
     shader_at[position] = static_cast<std::uint16_t>(keys[item]);
   }
   rows.find(starts);
