@@ -61,7 +61,7 @@ auto wave_size(System, Count n) {
 /// Throws std::invalid_argument where `n` is negative or a pointer is null, std::length_error where
 /// `n` exceeds `max_requests` or, on a CPU, a device_count its maximum, and what the workspace's
 /// allocator throws. No shader has run then, and `scratch` stays usable. Throws
-/// thrust::system_error where CUDA refuses a launch.
+/// cuda_error where CUDA refuses a launch.
 template <class Policy, class Schedule, class Count, class Ids, class... Shaders, class Allocator>
 void shade(Policy const& exec, Schedule const& schedule, Count n, Ids ids,
            shader_table<Shaders...> const& shaders, workspace<Allocator>& scratch) {

@@ -95,11 +95,16 @@ class workspace {
   static constexpr std::size_t bytes_for(std::size_t n, std::size_t shaders) noexcept {
     std::size_t const key = shaders <= 0xff ? 1 : shaders <= 0xffff ? 2 : 4;
     std::size_t const per_request = 2 * (key + sizeof(request_index)) + sizeof(request_index);
+    // Before compute capability 9.0, CUB sorts narrow keys with tables that depend on the GPU
+    // alone. Memory of std::allocator is none of a GPU.
+    using standard = std::allocator<typename Allocator::value_type>;
+    constexpr std::size_t for_device = std::is_same_v<Allocator, standard> ? 0 : 3 << 20;
     // Larger tables have fewer blocks: their counters are at most n / 16 and one row, nearly.
     std::size_t const few = std::min(shaders, std::size_t{1023});
     std::size_t const counters = (detail::block_partition::max_count(n, 0) + 1) * (few + 2) +
                                  (shaders > few ? n / 16 + 2 * shaders + 4 : 0);
-    return (n + sizeof(line)) * per_request + counters * sizeof(request_index) + 6 * sizeof(line);
+    return (n + sizeof(line)) * per_request + counters * sizeof(request_index) + 6 * sizeof(line) +
+           for_device;
   }
 
   /// The bytes held.

@@ -2,7 +2,6 @@
 // Holding a workspace of device memory takes no CUDA compiler, and without a device, asking it for
 // memory throws.
 #include <cuda_runtime_api.h>
-#include <thrust/system_error.h>
 #include <cstdio>
 
 #include "project/cuda/renderer.hpp"
@@ -19,7 +18,7 @@ int main() {
     r.scratch.reserve(1000, 3);
     std::printf("%zu bytes\n", r.scratch.capacity());
     return has_device && r.scratch.capacity() >= r.scratch.bytes_for(1000, 3) ? 0 : 1;
-  } catch (thrust::system_error const& error) {
+  } catch (deferred_shade::cuda_error const& error) {
     std::printf("%s\n", error.what());
     return !has_device && r.scratch.capacity() == 0 ? 0 : 1;
   }

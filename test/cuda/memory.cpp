@@ -5,7 +5,6 @@
 #include <thrust/mr/disjoint_pool.h>
 #include <thrust/mr/new.h>
 #include <thrust/system/cuda/memory_resource.h>
-#include <thrust/system_error.h>
 #include <algorithm>
 #include <new>
 #include <string>
@@ -99,9 +98,9 @@ TEST_CASE("memory that a GPU does not have is refused by name, and harms nothing
   std::string message;
   try {
     scratch.take(ds::elements<std::byte>(bytes));
-  } catch (thrust::system_error const& error) {
+  } catch (ds::cuda_error const& error) {
     message = error.what();
-    CHECK(error.code().value() == cudaErrorMemoryAllocation);
+    CHECK(error.code() == cudaErrorMemoryAllocation);
   }
   CAPTURE(message);
   CHECK(message.find(std::to_string(bytes) + " bytes") != std::string::npos);
@@ -167,7 +166,7 @@ TEST_CASE("a launch that CUDA refuses is an error of CUDA, and harms nothing",
   auto const check = [&](auto schedule) {
     CHECK_THROWS_AS(
         ds::shade(exec, schedule, n, ids.data(), ds::shader_table{too_wide{runs.data()}}, scratch),
-        thrust::system_error);
+        ds::cuda_error);
     test::cuda::wait();
     CHECK(runs == test::on<test::cuda>(std::vector<int>(n, 0)));
     CHECK(cudaGetLastError() == cudaSuccess);

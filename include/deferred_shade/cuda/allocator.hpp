@@ -14,7 +14,7 @@ namespace deferred_shade {
 ///
 /// Needs no CUDA compiler, only the headers of the CUDA runtime and its library, so that a
 /// translation unit for the host can hold a `workspace<cuda_allocator<std::byte>>`. Throws
-/// thrust::system_error, with the bytes and the device in its message, where the memory cannot be
+/// cuda_error, with the bytes and the device in its message, where the memory cannot be
 /// had.
 template <class T>
 struct cuda_allocator {
@@ -26,18 +26,21 @@ struct cuda_allocator {
 
   T* allocate(std::size_t n) {
     int device = 0;
-    detail::check_cuda(cudaGetDevice(&device), "no CUDA device to allocate on");
+    detail::check_cuda(cudaGetDevice(&device), "looking for a CUDA device");
     void* memory = nullptr;
     cudaError_t const status = cudaMalloc(&memory, n * sizeof(T));
     if (status != cudaSuccess) {
-      detail::check_cuda(status, "could not allocate " + std::to_string(n * sizeof(T)) +
-                                     " bytes on CUDA device " + std::to_string(device));
+      std::string const doing = "allocating " + std::to_string(n * sizeof(T)) +
+                                " bytes on CUDA device " + std::to_string(device);
+      detail::check_cuda(status, doing.c_str());
     }
     return static_cast<T*>(memory);
   }
 
   // Waits for what runs on the device.
-  void deallocate(T* memory, std::size_t) noexcept { cudaFree(memory); }
+  void deallocate(T* memory, std::size_t) noexcept {
+    if (cudaFree(memory) != cudaSuccess) cudaGetLastError();
+  }
 
   template <class U>
   bool operator==(cuda_allocator<U> const&) const noexcept {

@@ -3,7 +3,9 @@
 
 #include <cuda_runtime.h>
 #include <cstddef>
+#include <cstdint>
 #include <string>
+#include <type_traits>
 
 #include <deferred_shade/cuda/launch.hpp>
 #include <deferred_shade/records.hpp>
@@ -33,7 +35,7 @@ kernel_occupancy occupancy_of(int threads) {
   thread_local int known_device = -1;
   thread_local kernel_occupancy known{};
   int device = 0;
-  check_cuda(cudaGetDevice(&device), "no CUDA device");
+  check_cuda(cudaGetDevice(&device), "looking for a CUDA device");
   if (device == known_device) return known;
   int blocks = 0;
   if (threads == 0) {
@@ -42,8 +44,8 @@ kernel_occupancy occupancy_of(int threads) {
   check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, Kernel, threads, 0),
              "occupancy");
   if (blocks == 0) {
-    check_cuda(cudaErrorInvalidConfiguration,
-               "no multiprocessor has room for a block of " + std::to_string(threads) + " threads");
+    std::string const doing = "finding room for a block of " + std::to_string(threads) + " threads";
+    check_cuda(cudaErrorInvalidConfiguration, doing.c_str());
   }
   known = {static_cast<std::uint32_t>(threads),
            static_cast<std::size_t>(blocks) * multiprocessors()};

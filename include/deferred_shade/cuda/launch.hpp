@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include <deferred_shade/cuda/runtime.hpp>
 #include <deferred_shade/types.hpp>
@@ -52,6 +53,7 @@ template <class... Parameters, class... Arguments>
 void launch(char const* what, cudaStream_t stream, launch_shape shape,
             void (*kernel)(Parameters...), Arguments const&... arguments) {
   if (shape.blocks == 0) return;
+  cudaGetLastError();            // what the renderer left there is no error of this launch
   if (shape.shared_bytes > 0) {  // with what the kernel has itself, it may be more than the default
     check_cuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
                                     static_cast<int>(shape.shared_bytes)),
@@ -71,7 +73,7 @@ constexpr std::size_t blocks_for(std::size_t n, std::uint32_t threads) {
 inline std::size_t multiprocessors() {
   int device = 0;
   int count = 0;
-  check_cuda(cudaGetDevice(&device), "no CUDA device");
+  check_cuda(cudaGetDevice(&device), "looking for a CUDA device");
   check_cuda(cudaDeviceGetAttribute(&count, cudaDevAttrMultiProcessorCount, device),
              "multiprocessor count");
   return static_cast<std::size_t>(count);

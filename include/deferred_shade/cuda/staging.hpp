@@ -10,8 +10,21 @@
 
 namespace deferred_shade::detail {
 
+/// Whether T is the type of an extended lambda. nvcc gives its host compiler another type in its
+/// place, whose traits differ: which kernel there is must not depend on them.
+#ifdef __CUDACC_EXTENDED_LAMBDA__
+template <class T>
+inline constexpr bool is_extended_lambda = __nv_is_extended_device_lambda_closure_type(T) ||
+                                           __nv_is_extended_host_device_lambda_closure_type(T);
+#else
+template <class T>
+inline constexpr bool is_extended_lambda = false;
+#endif
+
 /// What record shaders of one table have in common where their requests can pass through shared
-/// memory: one type of source, of sink and of result, all trivially copyable, and small records.
+/// memory: one type of source, of sink and of result, all trivially copyable, small records, and a
+/// small table. (In a large one, a tile that fits in shared memory has too few requests of each
+/// shader to fill its rows.)
 template <class... Shaders>
 struct staging {
   static constexpr bool possible = false;
@@ -31,6 +44,9 @@ struct staging<record_shader<Source, Functions, Sink>...> {
   static constexpr std::size_t slot = (std::max(sizeof(request), sizeof(result)) + 15) / 16 * 16;
 
   static constexpr bool possible =
+      !is_extended_lambda<Source> && !is_extended_lambda<Sink> && sizeof...(Functions) <= 16 &&
+      sizeof(Source) + sizeof(Sink) <= 256 && std::is_copy_assignable_v<request> &&
+      std::is_copy_assignable_v<result> &&
       (std::is_same_v<result, typename shader<Functions>::result_type> && ...) &&
       std::is_trivially_copyable_v<request> && std::is_trivially_copyable_v<result> &&
       std::is_trivially_copyable_v<Source> && std::is_trivially_copyable_v<Sink> &&

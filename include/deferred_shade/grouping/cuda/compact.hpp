@@ -38,6 +38,7 @@ template <shader_id Shaders, class Policy, class Count, class Ids, class Workspa
 grouping compact_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Workspace& scratch) {
   std::size_t const maximum = maximum_of(n);
   cudaStream_t const stream = stream_of(exec);
+  cudaGetLastError();  // CUB would take what the renderer left there for an error of its own
   thrust::counting_iterator<request_index> const requests(0);
   // The segment of a shader begins where the one before ends, which its launch has written.
   auto const select = [&](void* memory, std::size_t& bytes, shader_id k, request_index* permutation,

@@ -46,6 +46,7 @@ grouping radix_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Works
   constexpr std::uint32_t threads = 256;
   std::size_t const maximum = maximum_of(n);
   cudaStream_t const stream = stream_of(exec);
+  cudaGetLastError();  // CUB would take what the renderer left there for an error of its own
   auto const sort = [&](void* memory, std::size_t& bytes, cub::DoubleBuffer<key>& keys,
                         cub::DoubleBuffer<request_index>& indices) {
     check_cuda(cub::DeviceRadixSort::SortPairs(memory, bytes, keys, indices,

@@ -22,7 +22,7 @@ inline constexpr std::uint32_t tile_threads = 512;
 inline constexpr std::uint32_t tile_items = 16;
 
 /// The largest table that a tile has counters for in shared memory; larger ones sort with bitonic.
-inline constexpr shader_id most_tile_shaders = 256;
+inline constexpr shader_id most_tile_shaders = 255;
 
 /// Sorts one tile, shades it row by row: a row is 32 requests of one shader, or what is left of
 /// them, and a warp takes the next row as soon as it has done one.
