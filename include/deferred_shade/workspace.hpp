@@ -91,7 +91,8 @@ class workspace {
   }
 
   /// The bytes that `reserve(n, shaders)` makes sure of: what `sort_then_dispatch` takes, since no
-  /// other schedule takes more. With fewer than 256 shaders it is about 14 bytes per request.
+  /// other schedule takes more. With fewer than 256 shaders it is about 14 bytes per request, and
+  /// 3 MiB besides where the memory may be a GPU's.
   static constexpr std::size_t bytes_for(std::size_t n, std::size_t shaders) noexcept {
     std::size_t const key = shaders <= 0xff ? 1 : shaders <= 0xffff ? 2 : 4;
     std::size_t const per_request = 2 * (key + sizeof(request_index)) + sizeof(request_index);
