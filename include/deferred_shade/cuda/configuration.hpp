@@ -34,8 +34,7 @@ template <auto Kernel>
 kernel_occupancy occupancy_of(int threads) {
   thread_local int known_device = -1;
   thread_local kernel_occupancy known{};
-  int device = 0;
-  check_cuda(cudaGetDevice(&device), "looking for a CUDA device");
+  int const device = current_device();
   if (device == known_device) return known;
   int blocks = 0;
   if (threads == 0) {

@@ -36,6 +36,7 @@ inline constexpr shader_id no_shader = static_cast<shader_id>(-1);
 
 template <class Ids>
 __global__ void copy_ids_kernel(std::size_t n, Ids ids, shader_id* copy) {
+  begin_after_earlier_kernels();
   std::size_t const i = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   if (i < n) copy[i] = shader_of(ids, static_cast<request_index>(i), no_shader);
 }
@@ -51,8 +52,8 @@ std::vector<shader_id> ids_on_host(cudaStream_t stream, std::size_t n, Ids ids) 
     ~buffer() { cuda_allocator<shader_id>().deallocate(ids, 0); }
     shader_id* ids;
   } const device(n);
-  launch("copying ids", stream, {blocks_for(n, 256), 256}, copy_ids_kernel<Ids>, n, ids,
-         device.ids);
+  launch<&copy_ids_kernel<Ids>>("copying ids", stream, {blocks_for(n, 256), 256}, n, ids,
+                                device.ids);
   check_cuda(cudaMemcpyAsync(copy.data(), device.ids, n * sizeof(shader_id), cudaMemcpyDeviceToHost,
                              stream),
              "copying ids");

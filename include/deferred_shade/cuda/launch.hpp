@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include <deferred_shade/cuda/overlap.hpp>
 #include <deferred_shade/cuda/runtime.hpp>
 #include <deferred_shade/types.hpp>
 
@@ -48,20 +49,55 @@ struct launch_shape {
   std::size_t shared_bytes = 0;
 };
 
-/// Launches `kernel` on `stream`; throws where CUDA refuses: `what` says which one it was.
-template <class... Parameters, class... Arguments>
+/// The number of the current device.
+inline int current_device() {
+  int device = 0;
+  check_cuda(cudaGetDevice(&device), "looking for a CUDA device");
+  return device;
+}
+
+/// Whether `Kernel` may start before the work ahead of it is done: on GPUs that can, where its code
+/// was compiled for them, so that it waits by itself. Asked of CUDA once per thread of the host and
+/// device.
+template <auto Kernel>
+bool may_start_early() {
+  thread_local int known_device = -1;
+  thread_local bool known = false;
+  int const device = current_device();
+  if (device == known_device) return known;
+  int major = 0;
+  check_cuda(cudaDeviceGetAttribute(&major, cudaDevAttrComputeCapabilityMajor, device),
+             "compute capability");
+  cudaFuncAttributes attributes{};
+  check_cuda(cudaFuncGetAttributes(&attributes, Kernel), "looking for a kernel");
+  known = major >= 9 && attributes.ptxVersion >= 90;
+  known_device = device;
+  return known;
+}
+
+/// Launches `Kernel` on `stream`; throws where CUDA refuses: `what` says which one it was. `Kernel`
+/// waits for the work ahead of it: see overlap.hpp.
+template <auto Kernel, class... Arguments>
 void launch(char const* what, cudaStream_t stream, launch_shape shape,
-            void (*kernel)(Parameters...), Arguments const&... arguments) {
+            Arguments const&... arguments) {
   if (shape.blocks == 0) return;
   cudaGetLastError();            // what the renderer left there is no error of this launch
   if (shape.shared_bytes > 0) {  // with what the kernel has itself, it may be more than the default
-    check_cuda(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
+    check_cuda(cudaFuncSetAttribute(Kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
                                     static_cast<int>(shape.shared_bytes)),
                what);
   }
-  kernel<<<static_cast<unsigned>(shape.blocks), shape.threads, shape.shared_bytes, stream>>>(
-      arguments...);
-  check_cuda(cudaGetLastError(), what);
+  cudaLaunchAttribute early{};
+  early.id = cudaLaunchAttributeProgrammaticStreamSerialization;
+  early.val.programmaticStreamSerializationAllowed = 1;
+  cudaLaunchConfig_t config{};
+  config.gridDim = dim3(static_cast<unsigned>(shape.blocks));
+  config.blockDim = dim3(shape.threads);
+  config.dynamicSmemBytes = shape.shared_bytes;
+  config.stream = stream;
+  config.attrs = &early;
+  config.numAttrs = may_start_early<Kernel>() ? 1 : 0;
+  check_cuda(cudaLaunchKernelEx(&config, Kernel, arguments...), what);
 }
 
 /// The blocks of `threads` that hold `n` threads.
@@ -71,10 +107,8 @@ constexpr std::size_t blocks_for(std::size_t n, std::uint32_t threads) {
 
 /// The multiprocessors of the current device.
 inline std::size_t multiprocessors() {
-  int device = 0;
   int count = 0;
-  check_cuda(cudaGetDevice(&device), "looking for a CUDA device");
-  check_cuda(cudaDeviceGetAttribute(&count, cudaDevAttrMultiProcessorCount, device),
+  check_cuda(cudaDeviceGetAttribute(&count, cudaDevAttrMultiProcessorCount, current_device()),
              "multiprocessor count");
   return static_cast<std::size_t>(count);
 }

@@ -27,9 +27,15 @@ __device__ void load_neighbours(Ids const& ids, request_index first, std::uint32
         for (std::uint32_t v = 0; v < Items / per_vector; ++v) {
           uint4 const vector = vectors[v];
           id const* const loaded = reinterpret_cast<id const*>(&vector);
+          std::uint32_t const words[] = {vector.x, vector.y, vector.z, vector.w};
 #pragma unroll
           for (std::uint32_t i = 0; i < per_vector; ++i) {
-            keys[v * per_vector + i] = shader_of(loaded, i, Shaders);
+            if constexpr (std::is_same_v<id, std::uint8_t>) {  // one instruction less for each
+              std::uint32_t const byte = __byte_perm(words[i / 4], 0, 0x4440 + i % 4);
+              keys[v * per_vector + i] = min(byte, Shaders);
+            } else {
+              keys[v * per_vector + i] = shader_of(loaded, i, Shaders);
+            }
           }
         }
         return;

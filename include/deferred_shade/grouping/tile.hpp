@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade {
@@ -57,6 +58,21 @@ void counting_sort(Ids const& ids, request_index first, request_index size,
   for (request_index i = 0; i < size; ++i) {
     result.order[next[shader_of(ids, first + i, Shaders)]++] = static_cast<std::uint16_t>(i);
   }
+}
+
+/// Sorts every tile and runs its requests shader by shader.
+template <request_index Tile, class Policy, class Ids, class... Shaders>
+void run_sorted_tiles(Policy const& exec, request_index n, Ids ids,
+                      shader_table<Shaders...> const& shaders) {
+  for_each_tile<Tile>(exec, n, [ids, &shaders](request_index first, request_index size) {
+    sorted_tile<sizeof...(Shaders), Tile> tile;
+    counting_sort(ids, first, size, tile);
+    shaders.for_each([&](auto id, auto const& shader) {
+      for (std::uint32_t p = tile.offsets[id]; p < tile.offsets[id + 1]; ++p) {
+        shader(first + tile.order[p]);
+      }
+    });
+  });
 }
 
 /// A key to sort a tile by: the shader above the position in the tile, so that requests of one

@@ -15,6 +15,7 @@ namespace deferred_shade::detail {
 /// Runs one shader on the requests that name it.
 template <shader_id Id, shader_id Shaders, class Count, class Ids, class Shader>
 __global__ void masked_kernel(Count n, Ids ids, Shader shader) {
+  independent_kernel const among_those_of_all_shaders(Id == 0);
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   auto const i = static_cast<request_index>(p);
   if (p < size_of(n) && shader_of(ids, i, Shaders) == Id) shader(i);
@@ -23,8 +24,9 @@ __global__ void masked_kernel(Count n, Ids ids, Shader shader) {
 /// Runs one shader on its segment. The grid does not know how long that is: a block takes one
 /// stretch after another until none is left.
 template <class Shader>
-__global__ void segment_kernel(request_index const* permutation, request_index const* offset,
-                               Shader shader) {
+__global__ void segment_kernel(bool first, request_index const* permutation,
+                               request_index const* offset, Shader shader) {
+  independent_kernel const among_those_of_all_shaders(first);
   std::size_t const end = offset[1];
   std::size_t const stride = std::size_t{gridDim.x} * blockDim.x;
   std::size_t p = offset[0] + std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
@@ -40,8 +42,8 @@ void run_explicit(cuda_system, Policy const& exec, Count n, Ids ids,
     constexpr auto kernel =
         &masked_kernel<decltype(id)::value, sizeof...(Shaders), Count, Ids, type>;
     std::uint32_t const threads = occupancy_of<kernel>(declared_block_size<type>).threads;
-    launch("explicit_serialization", stream, {blocks_for(maximum_of(n), threads), threads}, kernel,
-           n, ids, shader);
+    launch<kernel>("explicit_serialization", stream, {blocks_for(maximum_of(n), threads), threads},
+                   n, ids, shader);
   });
 }
 
@@ -57,8 +59,8 @@ void run_explicit(cuda_system, Policy const& exec, grouping group,
     std::size_t const share = blocks_for(group.maximum / sizeof...(Shaders), threads);
     std::size_t const blocks =
         std::min(blocks_for(group.maximum, threads), std::max(resident, share));
-    launch("explicit_serialization", stream, {blocks, threads}, kernel, group.permutation,
-           group.offsets + id, shader);
+    launch<kernel>("explicit_serialization", stream, {blocks, threads}, id == 0, group.permutation,
+                   group.offsets + id, shader);
   });
 }
 

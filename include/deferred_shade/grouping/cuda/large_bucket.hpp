@@ -7,9 +7,8 @@
 #include <cub/device/device_scan.cuh>
 
 #include <deferred_shade/cuda/launch.hpp>
-#include <deferred_shade/cuda/load_keys.hpp>
 #include <deferred_shade/cuda/tile_sort.hpp>
-#include <deferred_shade/grouping/cuda/small_bucket.hpp>
+#include <deferred_shade/grouping/cuda/bucket_tile.hpp>
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
 
@@ -23,12 +22,11 @@ template <shader_id Shaders, class Count, class Ids>
 __global__ void __launch_bounds__(bucket_threads)
     large_bucket_count_kernel(Count n, Ids ids, std::uint32_t* counts) {
   __shared__ std::uint32_t shared[Shaders + 1];
+  begin_after_earlier_kernels();
   for (std::uint32_t k = threadIdx.x; k <= Shaders; k += bucket_threads) shared[k] = 0;
   __syncthreads();
-  tile_of_block const tile(size_of(n));
-  std::uint32_t const mine = threadIdx.x * bucket_items;
   std::uint32_t keys[bucket_items];
-  load_neighbours<Shaders>(ids, tile.first + mine, mine < tile.size ? tile.size - mine : 0, keys);
+  tile_of_block(size_of(n)).load_neighbours_of_thread<Shaders>(ids, keys);
   std::uint32_t length = 0;
 #pragma unroll
   for (std::uint32_t item = 0; item < bucket_items; ++item) {
@@ -47,7 +45,8 @@ __global__ void __launch_bounds__(bucket_threads)
 /// request of shader k in tile t, and the last element is the number of all that have a shader.
 template <shader_id Shaders, class Count, class Ids>
 __global__ void __launch_bounds__(bucket_threads, 3)
-    large_bucket_place_kernel(Count n, Ids ids, std::uint32_t const* places, bucket_output output) {
+    large_bucket_place_kernel(Count n, Ids ids, std::uint32_t const* places,
+                              request_index* permutation, request_index* offsets) {
   using sort = tile_sort<Shaders, bucket_threads, bucket_items>;
   __shared__ union {
     typename sort::temporary_storage sorting;
@@ -55,6 +54,7 @@ __global__ void __launch_bounds__(bucket_threads, 3)
   } shared;
   __shared__ std::uint32_t starts[sort::columns];
   __shared__ std::uint32_t shift[Shaders];  // from places in the tile to places in the wave
+  begin_after_earlier_kernels();
   tile_of_block const tile(size_of(n));
   std::uint32_t keys[bucket_items];
   std::uint32_t ranks[bucket_items];
@@ -64,9 +64,9 @@ __global__ void __launch_bounds__(bucket_threads, 3)
   for (std::uint32_t k = threadIdx.x; k < Shaders; k += bucket_threads) {
     std::uint32_t const place = places[k * gridDim.x + blockIdx.x];
     shift[k] = place - starts[k];
-    if (blockIdx.x == 0) output.offsets[k] = place;
+    if (blockIdx.x == 0) offsets[k] = place;
   }
-  if (blockIdx.x == 0 && threadIdx.x == 0) output.offsets[Shaders] = places[Shaders * gridDim.x];
+  if (blockIdx.x == 0 && threadIdx.x == 0) offsets[Shaders] = places[Shaders * gridDim.x];
 #pragma unroll
   for (std::uint32_t item = 0; item < bucket_items; ++item) {
     shared.slots[ranks[item]] = keys[item] << 16 | sort::position(item);
@@ -78,7 +78,7 @@ __global__ void __launch_bounds__(bucket_threads, 3)
     std::uint32_t const p = item * bucket_threads + threadIdx.x;
     if (p >= used) break;
     std::uint32_t const slot = shared.slots[p];
-    output.permutation[shift[slot >> 16] + p] = tile.first + (slot & 0xffff);
+    permutation[shift[slot >> 16] + p] = tile.first + (slot & 0xffff);
   }
 }
 
@@ -98,11 +98,11 @@ grouping large_bucket_grouping(cudaStream_t stream, Count n, Ids ids, Workspace&
       scratch.take(elements<request_index>(maximum), elements<std::uint32_t>(tiles * Shaders + 1),
                    elements<std::byte>(bytes), elements<request_index>(Shaders + 1));
   launch_shape const shape{tiles, bucket_threads};
-  launch("bucket count", stream, shape, large_bucket_count_kernel<Shaders, Count, Ids>, n, ids,
-         counts);
+  launch<&large_bucket_count_kernel<Shaders, Count, Ids>>("bucket count", stream, shape, n, ids,
+                                                          counts);
   scan(memory, bytes, counts);
-  launch("bucket place", stream, shape, large_bucket_place_kernel<Shaders, Count, Ids>, n, ids,
-         counts, bucket_output{permutation, offsets});
+  launch<&large_bucket_place_kernel<Shaders, Count, Ids>>("bucket place", stream, shape, n, ids,
+                                                          counts, permutation, offsets);
   return {permutation, offsets, maximum};
 }
 

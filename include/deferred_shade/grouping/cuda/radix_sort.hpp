@@ -18,6 +18,7 @@ namespace deferred_shade::detail {
 template <shader_id Shaders, class Key, class Count, class Ids>
 __global__ void radix_pairs_kernel(std::size_t maximum, Count n, Ids ids, Key* keys,
                                    request_index* indices) {
+  begin_after_earlier_kernels();
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   if (p >= maximum) return;
   auto const i = static_cast<request_index>(p);
@@ -28,6 +29,7 @@ __global__ void radix_pairs_kernel(std::size_t maximum, Count n, Ids ids, Key* k
 /// offsets[k] becomes the number of keys below k.
 template <shader_id Shaders, class Key>
 __global__ void radix_offsets_kernel(std::size_t size, Key const* keys, request_index* offsets) {
+  begin_after_earlier_kernels();
   std::uint32_t const k = blockIdx.x * blockDim.x + threadIdx.x;
   if (k > Shaders) return;
   std::size_t first = 0;
@@ -64,11 +66,13 @@ grouping radix_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Works
                    elements<request_index>(Shaders + 1));
   keys = {keys_0, keys_1};
   indices = {indices_0, indices_1};
-  launch("radix_pairs_kernel", stream, {blocks_for(maximum, threads), threads},
-         radix_pairs_kernel<Shaders, key, Count, Ids>, maximum, n, ids, keys_0, indices_0);
+  launch<&radix_pairs_kernel<Shaders, key, Count, Ids>>("radix sort's pairs", stream,
+                                                        {blocks_for(maximum, threads), threads},
+                                                        maximum, n, ids, keys_0, indices_0);
   sort(memory, bytes, keys, indices);
-  launch("radix_offsets_kernel", stream, {blocks_for(Shaders + 1, threads), threads},
-         radix_offsets_kernel<Shaders, key>, maximum, keys.Current(), offsets);
+  launch<&radix_offsets_kernel<Shaders, key>>("radix sort's offsets", stream,
+                                              {blocks_for(Shaders + 1, threads), threads}, maximum,
+                                              keys.Current(), offsets);
   return {indices.Current(), offsets, maximum};
 }
 

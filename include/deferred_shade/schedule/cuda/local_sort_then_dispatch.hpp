@@ -19,7 +19,7 @@ namespace deferred_shade::detail {
 // A tile is the largest that a multiprocessor has room for with two blocks: all warps of a block
 // then run the same shader at the same time, or nearly, and share its instructions.
 inline constexpr std::uint32_t tile_threads = 512;
-inline constexpr std::uint32_t tile_items = 16;
+inline constexpr std::uint32_t tile_items = 8;
 
 /// The largest table that a tile has counters for in shared memory; larger ones sort with bitonic.
 inline constexpr shader_id most_tile_shaders = 255;
@@ -34,6 +34,7 @@ __global__ void __launch_bounds__(tile_threads)
   __shared__ std::uint32_t starts[sort::columns];
   __shared__ tile_rows<sort> rows;
   __shared__ std::uint16_t order[sort::size];
+  begin_after_earlier_kernels();
   std::size_t const tile = std::size_t{blockIdx.x} * sort::size;
   std::size_t const end = size_of(n);
   if (tile >= end) return;
@@ -61,6 +62,7 @@ template <class Count, class Ids, class... Shaders>
 __global__ void __launch_bounds__(bitonic::tile)
     bitonic_kernel(Count n, Ids ids, shader_table<Shaders...> const __grid_constant__ shaders) {
   __shared__ std::uint32_t keys[bitonic::tile];
+  begin_after_earlier_kernels();
   std::uint32_t const t = threadIdx.x;
   std::size_t const tile = std::size_t{blockIdx.x} * bitonic::tile;
   std::size_t const end = size_of(n);
@@ -97,9 +99,9 @@ template <class Policy, class Count, class Ids, class... Shaders>
 void run_tiles(cuda_system, bitonic, Policy const& exec, Count n, Ids ids,
                shader_table<Shaders...> const& shaders) {
   constexpr std::uint32_t threads = bitonic::tile;
-  launch("local_sort_then_dispatch<bitonic>", stream_of(exec),
-         {blocks_for(maximum_of(n), threads), threads}, bitonic_kernel<Count, Ids, Shaders...>, n,
-         ids, shaders);
+  launch<&bitonic_kernel<Count, Ids, Shaders...>>(
+      "local_sort_then_dispatch<bitonic>", stream_of(exec),
+      {blocks_for(maximum_of(n), threads), threads}, n, ids, shaders);
 }
 
 template <class Policy, class Count, class Ids, class... Shaders>
@@ -110,9 +112,9 @@ void run_tiles(cuda_system, counting, Policy const& exec, Count n, Ids ids,
   } else if constexpr (staging<Shaders...>::possible) {
     run_staged(exec, n, ids, shaders);
   } else {
-    launch("local_sort_then_dispatch", stream_of(exec),
-           {blocks_for(maximum_of(n), tile_threads * tile_items), tile_threads},
-           tile_kernel<Count, Ids, Shaders...>, n, ids, shaders);
+    launch<&tile_kernel<Count, Ids, Shaders...>>(
+        "local_sort_then_dispatch", stream_of(exec),
+        {blocks_for(maximum_of(n), tile_threads * tile_items), tile_threads}, n, ids, shaders);
   }
 }
 

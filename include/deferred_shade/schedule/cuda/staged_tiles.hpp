@@ -17,14 +17,17 @@
 
 namespace deferred_shade::detail {
 
-inline constexpr std::uint32_t staged_threads = 512;
+// A row is full where a shader has many requests in a tile: small tables do with small tiles, more
+// of which are under way at one time, some of them loading, some shading, some storing.
+template <class... Shaders>
+inline constexpr std::uint32_t staged_threads = sizeof...(Shaders) <= 8 ? 128 : 512;
 
 /// One tile of record shaders: requests are loaded into shared memory in the order in which they
 /// lie, shaded in the order of their shaders, and the results, which take the place of the
 /// requests, are stored in the order in which they lie. `one_source`: all shaders have the same
 /// pointer.
 template <std::uint32_t Items, class Count, class Ids, class... Shaders>
-__global__ void __launch_bounds__(staged_threads)
+__global__ void __launch_bounds__(staged_threads<Shaders...>)
     staged_kernel(Count n, Ids ids, shader_table<Shaders...> const __grid_constant__ shaders,
                   bool one_source) {
   using records = staging<Shaders...>;
@@ -32,7 +35,8 @@ __global__ void __launch_bounds__(staged_threads)
   using result = typename records::result;
   using source_type = typename records::source_type;
   using sink_type = typename records::sink_type;
-  using sort = tile_sort<sizeof...(Shaders), staged_threads, Items>;
+  constexpr std::uint32_t threads = staged_threads<Shaders...>;
+  using sort = tile_sort<sizeof...(Shaders), threads, Items>;
   extern __shared__ uint4 slots[];
   __shared__ typename sort::temporary_storage temporary;
   __shared__ std::uint32_t starts[sort::columns];
@@ -45,6 +49,7 @@ __global__ void __launch_bounds__(staged_threads)
     return reinterpret_cast<char*>(slots) + position * records::slot;
   };
 
+  begin_after_earlier_kernels();
   std::size_t const tile = std::size_t{blockIdx.x} * sort::size;
   std::size_t const end = size_of(n);
   if (tile >= end) return;
@@ -56,7 +61,7 @@ __global__ void __launch_bounds__(staged_threads)
       auto const* const words =
           reinterpret_cast<uint4 const*>(shaders.template get<0>().source + first);
       auto const count = static_cast<std::uint32_t>(size * (records::slot / sizeof(uint4)));
-      for (std::uint32_t w = threadIdx.x; w < count; w += staged_threads) {
+      for (std::uint32_t w = threadIdx.x; w < count; w += threads) {
         __pipeline_memcpy_async(&slots[w], &words[w], sizeof(uint4));
       }
       __pipeline_commit();
@@ -82,7 +87,7 @@ __global__ void __launch_bounds__(staged_threads)
   rows.find(starts);
   if (!(records::copies_words && one_source)) {
     __syncthreads();
-    for (std::uint32_t p = threadIdx.x; p < size; p += staged_threads) {
+    for (std::uint32_t p = threadIdx.x; p < size; p += threads) {
       if (shader_at[p] == sizeof...(Shaders)) continue;
       auto const& source = *reinterpret_cast<source_type const*>(sources[shader_at[p]]);
       *reinterpret_cast<request*>(slot(p)) = load(source, first + p);
@@ -97,7 +102,7 @@ __global__ void __launch_bounds__(staged_threads)
         id, [&](auto const& shader) { *reinterpret_cast<result*>(memory) = shader.function(r); });
   });
   __syncthreads();
-  for (std::uint32_t p = threadIdx.x; p < size; p += staged_threads) {
+  for (std::uint32_t p = threadIdx.x; p < size; p += threads) {
     if (shader_at[p] == sizeof...(Shaders)) continue;
     store(*reinterpret_cast<sink_type const*>(sinks[shader_at[p]]), first + p,
           *reinterpret_cast<result const*>(slot(p)));
@@ -108,16 +113,18 @@ template <class Policy, class Count, class Ids, class... Shaders>
 void run_staged(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders) {
   using records = staging<Shaders...>;
   constexpr auto items = static_cast<std::uint32_t>(std::min<std::size_t>(8, 128 / records::slot));
-  constexpr std::size_t tile = staged_threads * items;
+  constexpr std::uint32_t threads = staged_threads<Shaders...>;
+  constexpr std::size_t tile = threads * items;
   bool one_source = records::copies_words;
   if constexpr (records::copies_words) {
     shaders.for_each([&](auto, auto const& shader) {
       one_source = one_source && shader.source == shaders.template get<0>().source;
     });
   }
-  launch("local_sort_then_dispatch", stream_of(exec),
-         {(maximum_of(n) + tile - 1) / tile, staged_threads, tile * records::slot},
-         staged_kernel<items, Count, Ids, Shaders...>, n, ids, shaders, one_source);
+  launch<&staged_kernel<items, Count, Ids, Shaders...>>(
+      "local_sort_then_dispatch", stream_of(exec),
+      {(maximum_of(n) + tile - 1) / tile, threads, tile * records::slot}, n, ids, shaders,
+      one_source);
 }
 
 }  // namespace deferred_shade::detail
