@@ -103,6 +103,7 @@ struct ways {
     if (on_cuda) add("known-counts", known_counts);
     add("local-bitonic", schedule<local_sort_then_dispatch<bitonic>>);
     add("local", schedule<local_sort_then_dispatch<>>);
+    add("window", schedule<window_sort_then_dispatch>);
   }
 };
 

@@ -215,7 +215,8 @@ bool with_schedule(std::string_view name, Function const& f) {
          is("bucket+implicit", ds::bucket_then_dispatch<implicit>{}) ||
          is("bucket+explicit", ds::bucket_then_dispatch<explicit_>{}) ||
          is("local-bitonic", ds::local_sort_then_dispatch<ds::bitonic>{}) ||
-         is("local", ds::local_sort_then_dispatch<>{});
+         is("local", ds::local_sort_then_dispatch<>{}) ||
+         is("window", ds::window_sort_then_dispatch{});
 }
 
 /// Renders a scene in the memory of `backend` by the schedule that the settings name.

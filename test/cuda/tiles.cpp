@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tiles of local_sort_then_dispatch on a GPU, on both sides of each size of a table at which
-// they are sorted, or their records moved, in another way.
+// The tiles of local_sort_then_dispatch and the windows of window_sort_then_dispatch on a GPU, on
+// both sides of each size of a table at which they are sorted, or their records moved, in another
+// way.
 #include <cstdint>
 #include <deferred_shade/schedule/local_sort_then_dispatch.hpp>
+#include <deferred_shade/schedule/window_sort_then_dispatch.hpp>
 #include <vector>
 
 #include "../catch.hpp"
@@ -19,11 +21,10 @@ using gpu = test::cuda;
 using test::record;
 using function = test::mixing<record<4, 16>, record<2>>;
 
-template <std::uint32_t Shaders>
-void check_table() {
+template <std::uint32_t Shaders, class Schedule>
+void check_table(Schedule const& schedule) {
   ds::workspace scratch{gpu::policy()};
-  test::check_id_type<gpu, std::uint16_t, Shaders>(ds::local_sort_then_dispatch<>{}, scratch,
-                                                   {1, 33, 8193, 20011});
+  test::check_id_type<gpu, std::uint16_t, Shaders>(schedule, scratch, {1, 33, 4095, 8193, 20011});
 }
 
 template <std::uint32_t... Ids>
@@ -47,10 +48,21 @@ void check_records(std::integer_sequence<std::uint32_t, Ids...>) {
 }  // namespace
 
 TEST_CASE("tiles take tables of any size", "[cuda]") {
-  check_table<32>();
-  check_table<33>();
-  check_table<255>();
-  check_table<256>();
+  ds::local_sort_then_dispatch<> const schedule;
+  check_table<32>(schedule);
+  check_table<33>(schedule);
+  check_table<255>(schedule);
+  check_table<256>(schedule);
+}
+
+TEST_CASE("windows take tables of any size", "[cuda]") {
+  ds::window_sort_then_dispatch const schedule;
+  check_table<7>(schedule);
+  check_table<8>(schedule);
+  check_table<15>(schedule);
+  check_table<16>(schedule);
+  check_table<32>(schedule);
+  check_table<33>(schedule);
 }
 
 TEST_CASE("tiles take records of tables of any size", "[cuda]") {

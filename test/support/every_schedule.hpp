@@ -19,6 +19,7 @@ void for_each_schedule(Function const& f) {
   f(ds::bucket_then_dispatch<ds::implicit_serialization>{});
   f(ds::local_sort_then_dispatch<>{});
   f(ds::local_sort_then_dispatch<ds::bitonic>{});
+  f(ds::window_sort_then_dispatch{});
 }
 
 }  // namespace test

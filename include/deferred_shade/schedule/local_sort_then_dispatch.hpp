@@ -18,15 +18,7 @@ namespace detail {
 template <class Policy, class Ids, class... Shaders>
 void run_tiles(host_system, counting, Policy const& exec, request_index n, Ids ids,
                shader_table<Shaders...> const& shaders) {
-  for_each_tile<counting::tile>(exec, n, [ids, &shaders](request_index first, request_index size) {
-    sorted_tile<sizeof...(Shaders), counting::tile> tile;
-    counting_sort(ids, first, size, tile);
-    shaders.for_each([&](auto id, auto const& shader) {
-      for (std::uint32_t p = tile.offsets[id]; p < tile.offsets[id + 1]; ++p) {
-        shader(first + tile.order[p]);
-      }
-    });
-  });
+  run_sorted_tiles<counting::tile>(exec, n, ids, shaders);
 }
 
 template <class Policy, class Ids, class... Shaders>

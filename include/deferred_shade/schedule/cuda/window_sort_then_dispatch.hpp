@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include <deferred_shade/cuda/launch.hpp>
+#include <deferred_shade/dispatch/cuda/implicit.hpp>
+#include <deferred_shade/grouping/cuda/bucket.hpp>
+#include <deferred_shade/grouping/cuda/windows.hpp>
+#include <deferred_shade/shader_table.hpp>
+#include <deferred_shade/system.hpp>
+#include <deferred_shade/types.hpp>
+
+namespace deferred_shade::detail {
+
+// Large blocks: the warps of a block mostly run one shader, and share its instructions. Larger ones
+// would leave registers of a multiprocessor unused.
+inline constexpr std::uint32_t window_threads = 512;
+
+/// Runs the requests of every window in the order of their shaders.
+template <class... Shaders>
+__global__ void __launch_bounds__(window_threads)
+    window_kernel(window_grouping windows, std::size_t maximum,
+                  shader_table<Shaders...> const __grid_constant__ shaders) {
+  begin_after_earlier_kernels();
+  std::size_t const p = std::size_t{blockIdx.x} * window_threads + threadIdx.x;
+  std::size_t const window = p / window_size;
+  if (p >= maximum || p % window_size >= windows.used[window]) return;
+  std::uint32_t const request = windows.sorted[p];
+  shaders.run(request >> 24,
+              static_cast<request_index>(window * window_size + (request & 0xffffff)));
+}
+
+template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
+void run_windows(cuda_system, Policy const& exec, Count n, Ids ids,
+                 shader_table<Shaders...> const& shaders, Workspace& scratch) {
+  constexpr shader_id size = sizeof...(Shaders);
+  if constexpr (size <= most_small_buckets) {
+    window_grouping const windows = group_windows<size>(stream_of(exec), n, ids, scratch);
+    std::size_t const maximum = maximum_of(n);
+    launch<&window_kernel<Shaders...>>("window_sort_then_dispatch", stream_of(exec),
+                                       {blocks_for(maximum, window_threads), window_threads},
+                                       windows, maximum, shaders);
+  } else {
+    run_implicit(cuda_system{}, exec,
+                 bucket_grouping<size>(cuda_system{}, exec, n, ids, scratch), shaders);
+  }
+}
+
+}  // namespace deferred_shade::detail
