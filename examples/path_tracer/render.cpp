@@ -46,9 +46,10 @@ std::vector<std::string_view> backends() {
 }
 
 std::vector<std::string_view> schedules() {
-  return {"implicit",      "explicit",      "compact+implicit", "compact+explicit",
-          "sort+implicit", "sort+explicit", "bucket+implicit",  "bucket+explicit",
-          "local-bitonic", "local", "window"};
+  return {
+      "implicit",      "explicit",        "compact+implicit", "compact+explicit", "sort+implicit",
+      "sort+explicit", "bucket+implicit", "bucket+explicit",  "local-bitonic",    "local",
+      "window"};
 }
 
 render_result render(scene const& s, render_settings const& settings,

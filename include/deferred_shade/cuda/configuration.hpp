@@ -28,6 +28,10 @@ struct kernel_occupancy {
   std::size_t resident_blocks;  ///< on all multiprocessors together
 };
 
+/// The threads per block that the library chooses at most: the warps of a larger block wait for its
+/// last one before the next block can take their place.
+inline constexpr int most_threads = 256;
+
 /// The occupancy of `Kernel` on the current device: with `threads` per block, or with as many as
 /// fill the device best where that is 0. Asked of CUDA once per thread of the host and device.
 template <auto Kernel>
@@ -38,7 +42,8 @@ kernel_occupancy occupancy_of(int threads) {
   if (device == known_device) return known;
   int blocks = 0;
   if (threads == 0) {
-    check_cuda(cudaOccupancyMaxPotentialBlockSize(&blocks, &threads, Kernel), "occupancy");
+    check_cuda(cudaOccupancyMaxPotentialBlockSize(&blocks, &threads, Kernel, 0, most_threads),
+               "occupancy");
   }
   check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, Kernel, threads, 0),
              "occupancy");

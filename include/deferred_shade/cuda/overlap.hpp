@@ -4,7 +4,8 @@
 // Kernels of one stream that overlap, from compute capability 9.0 on ("programmatic dependent
 // launch" in CUDA's guide): the blocks of a kernel move in while the last blocks of the one ahead
 // still run. So a kernel that launch() starts has to wait by itself: by its end at the latest for
-// everything ahead of it, and before it reads what that writes. Elsewhere both functions do nothing.
+// everything ahead of it, and before it reads what that writes. Elsewhere both functions do
+// nothing.
 //
 // The first kernel of a call to shade() waits before it lets the next one start. What the renderer
 // wrote before the call is therefore done when any of them runs: those behind wait for each other's

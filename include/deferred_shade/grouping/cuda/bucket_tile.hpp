@@ -181,8 +181,8 @@ class sorted_bucket_tile {
     std::uint32_t* const begins = &begins_[0][threadIdx.x];
 #pragma unroll
     for (std::uint32_t k = 0; k < columns; ++k) {
-      begins[k * bucket_threads] = __shfl_sync(all_lanes, begin, static_cast<int>(k)) +
-                                   (sums[k / 2] >> k % 2 * 16 & 0xffff);
+      begins[k * bucket_threads] =
+          __shfl_sync(all_lanes, begin, static_cast<int>(k)) + (sums[k / 2] >> k % 2 * 16 & 0xffff);
     }
     std::uint32_t const mine = threadIdx.x * bucket_items;
 #pragma unroll

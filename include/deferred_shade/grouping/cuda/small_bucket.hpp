@@ -33,9 +33,8 @@ __global__ void __launch_bounds__(bucket_threads)
   begin_after_earlier_kernels();
   std::uint32_t keys[bucket_items];
   tile_of_block(size_of(n)).load_neighbours_of_thread<Shaders>(ids, keys);
-  counters.count(keys, [&](shader_id k, std::uint32_t count) {
-    counts[layout(k, blockIdx.x)] = count;
-  });
+  counters.count(keys,
+                 [&](shader_id k, std::uint32_t count) { counts[layout(k, blockIdx.x)] = count; });
 }
 
 /// Sorts every tile and writes each request to where `Output` says that the requests of its shader

@@ -16,13 +16,14 @@
 
 namespace deferred_shade::detail {
 
-inline constexpr std::uint32_t window_tiles = 64;
+inline constexpr std::uint32_t window_tiles = 32;
 inline constexpr std::uint32_t window_size = window_tiles * bucket_tile;
 
 /// The requests of a wave, sorted by shader inside each window: a view of memory of a workspace.
 struct window_grouping {
-  std::uint32_t const* sorted;  ///< the shader in the upper 8 bits, the position in the window below
-  std::uint32_t const* used;    ///< for each window, the requests that name a shader: they come first
+  std::uint32_t const*
+      sorted;                 ///< the shader in the upper 8 bits, the position in the window below
+  std::uint32_t const* used;  ///< for each window, the requests that name a shader: they come first
 };
 
 /// Where windows are written, by the counts of each tile.
@@ -81,15 +82,15 @@ template <shader_id Shaders, class Count, class Ids, class Workspace>
 window_grouping group_windows(cudaStream_t stream, Count n, Ids ids, Workspace& scratch) {
   std::size_t const maximum = maximum_of(n);
   std::size_t const tiles = blocks_for(maximum, bucket_tile);
-  auto const [sorted, counts, used] = scratch.take(
-      elements<std::uint32_t>(maximum), elements<std::uint32_t>(tiles * Shaders),
-      elements<std::uint32_t>(blocks_for(maximum, window_size)));
+  auto const [sorted, counts, used] =
+      scratch.take(elements<std::uint32_t>(maximum), elements<std::uint32_t>(tiles * Shaders),
+                   elements<std::uint32_t>(blocks_for(maximum, window_size)));
   using output = window_output<Shaders>;
   launch_shape const shape{tiles, bucket_threads};
   launch<&small_bucket_count_kernel<Shaders, Count, Ids>>("window count", stream, shape, n, ids,
                                                           tile_count_layout{1, Shaders}, counts);
-  launch<&small_bucket_place_kernel<Shaders, Count, Ids, output>>("window place", stream, shape, n,
-                                                                  ids, output{counts, sorted, used});
+  launch<&small_bucket_place_kernel<Shaders, Count, Ids, output>>(
+      "window place", stream, shape, n, ids, output{counts, sorted, used});
   return {sorted, used};
 }
 

@@ -14,17 +14,21 @@
 
 namespace deferred_shade::detail {
 
-// Large blocks: the warps of a block mostly run one shader, and share its instructions. Larger ones
-// would leave registers of a multiprocessor unused.
-inline constexpr std::uint32_t window_threads = 512;
+// The warps of a block mostly run one shader, and share its instructions. The more shaders, the
+// more blocks of a multiprocessor differ in theirs, and the larger a block should be; else smaller
+// ones keep it better filled.
+template <class... Shaders>
+inline constexpr std::uint32_t window_threads = sizeof...(Shaders) <= 8    ? 256
+                                                : sizeof...(Shaders) <= 16 ? 512
+                                                                           : 768;
 
 /// Runs the requests of every window in the order of their shaders.
 template <class... Shaders>
-__global__ void __launch_bounds__(window_threads)
+__global__ void __launch_bounds__(window_threads<Shaders...>)
     window_kernel(window_grouping windows, std::size_t maximum,
                   shader_table<Shaders...> const __grid_constant__ shaders) {
   begin_after_earlier_kernels();
-  std::size_t const p = std::size_t{blockIdx.x} * window_threads + threadIdx.x;
+  std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   std::size_t const window = p / window_size;
   if (p >= maximum || p % window_size >= windows.used[window]) return;
   std::uint32_t const request = windows.sorted[p];
@@ -39,12 +43,13 @@ void run_windows(cuda_system, Policy const& exec, Count n, Ids ids,
   if constexpr (size <= most_small_buckets) {
     window_grouping const windows = group_windows<size>(stream_of(exec), n, ids, scratch);
     std::size_t const maximum = maximum_of(n);
+    constexpr std::uint32_t threads = window_threads<Shaders...>;
     launch<&window_kernel<Shaders...>>("window_sort_then_dispatch", stream_of(exec),
-                                       {blocks_for(maximum, window_threads), window_threads},
-                                       windows, maximum, shaders);
+                                       {blocks_for(maximum, threads), threads}, windows, maximum,
+                                       shaders);
   } else {
-    run_implicit(cuda_system{}, exec,
-                 bucket_grouping<size>(cuda_system{}, exec, n, ids, scratch), shaders);
+    run_implicit(cuda_system{}, exec, bucket_grouping<size>(cuda_system{}, exec, n, ids, scratch),
+                 shaders);
   }
 }
 
