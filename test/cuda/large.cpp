@@ -120,6 +120,7 @@ TEST_CASE("the largest wave on a GPU", "[cuda][.][large]") {
   check(ds::implicit_serialization{}, n + n / 8);
   check(ds::explicit_serialization{}, n + n / 8);
   check(ds::local_sort_then_dispatch<>{}, n + n / 8);
+  check(ds::window_sort_then_dispatch{}, 5 * n + n / 8);
   check(ds::local_sort_then_dispatch<ds::bitonic>{}, n + n / 8);
   check(ds::bucket_then_dispatch<>{}, 6 * n);
   check(ds::bucket_then_dispatch<ds::implicit_serialization>{}, 6 * n);

@@ -56,6 +56,17 @@ inline int current_device() {
   return device;
 }
 
+/// Whether any code of this translation unit was compiled for GPUs on which kernels overlap. (A
+/// kernel that is optimised when it is linked says for which architecture it was linked.)
+constexpr bool is_compiled_for_overlap() {
+#ifdef __CUDA_ARCH_LIST__
+  for (int const architecture : {__CUDA_ARCH_LIST__}) {
+    if (architecture >= 900) return true;
+  }
+#endif
+  return false;
+}
+
 /// Whether `Kernel` may start before the work ahead of it is done: on GPUs that can, where its code
 /// was compiled for them, so that it waits by itself. Asked of CUDA once per thread of the host and
 /// device.
@@ -70,7 +81,7 @@ bool may_start_early() {
              "compute capability");
   cudaFuncAttributes attributes{};
   check_cuda(cudaFuncGetAttributes(&attributes, Kernel), "looking for a kernel");
-  known = major >= 9 && attributes.ptxVersion >= 90;
+  known = is_compiled_for_overlap() && major >= 9 && attributes.ptxVersion >= 90;
   known_device = device;
   return known;
 }

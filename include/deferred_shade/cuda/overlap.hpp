@@ -9,7 +9,8 @@
 //
 // The first kernel of a call to shade() waits before it lets the next one start. What the renderer
 // wrote before the call is therefore done when any of them runs: those behind wait for each other's
-// results alone.
+// results alone. That they also see it rests on what every launch does, to drop what the
+// first-level caches hold; CUB's kernels rest on it as well.
 
 namespace deferred_shade::detail {
 

@@ -45,8 +45,9 @@ void run_explicit(host_system, Policy const& exec, grouping group,
 /// One launch per shader. Schedule 2 of Hoberock et al., HPG 2009, and, over a grouping, the
 /// second half of its schedules 4 and 6.
 ///
-/// On CUDA, a shader may say how many threads a block of its launch has, where it knows better than
-/// the occupancy that CUDA computes:
+/// On CUDA, launches overlap where the GPU can, and a shader may say how many threads a block of its
+/// launch has, where it knows better than the library, which takes as many, up to 256, as fill the
+/// device:
 ///
 ///     struct marble { static constexpr int block_size = 128; /* ... */ };
 struct explicit_serialization {
