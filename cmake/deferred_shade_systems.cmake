@@ -44,3 +44,11 @@ function(deferred_shade_add_system system)
     set_property(TARGET deferred_shade::cccl PROPERTY IMPORTED_NO_SYSTEM TRUE)
   endif()
 endfunction()
+
+# deferred_shade::simd: what g++ and clang need to make vectors of record shaders besides -O3 and -march,
+# which are the renderer's choice. Neither flag changes a result; nothing else of the library carries them.
+if(NOT TARGET deferred_shade::simd)
+  add_library(deferred_shade::simd INTERFACE IMPORTED GLOBAL)
+  target_compile_options(deferred_shade::simd INTERFACE
+    "$<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-fno-math-errno;-fno-trapping-math>")
+endif()

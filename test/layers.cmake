@@ -14,7 +14,7 @@ set(layers
   "counts|cuda/(allocator|launch|load_keys|rank_in_warp|thread_counts)"
   "shader_table|workspace|cuda/(tile_sort|tile_rows|host_copy)"
   "records"
-  "cuda/(configuration|staging)"
+  "lanes|cuda/(configuration|staging)"
   "grouping/cuda/(radix_sort|compact|bucket_tile)"
   "grouping/cuda/(small_bucket|large_bucket)"
   "grouping/cuda/(bucket|windows)"

@@ -3,8 +3,12 @@
 
 #include <thrust/for_each.h>
 #include <thrust/iterator/counting_iterator.h>
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <type_traits>
 
+#include <deferred_shade/lanes.hpp>
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/system.hpp>
 #include <deferred_shade/types.hpp>
@@ -35,8 +39,23 @@ void run_explicit(host_system, Policy const& exec, grouping group,
     request_index const begin = group.offsets[id];
     request_index const end = group.offsets[id + 1];
     if (begin == end) return;
-    thrust::for_each_n(exec, group.permutation + begin, std::size_t{end - begin},
-                       [&shader](request_index i) { shader(i); });
+    if constexpr (is_packable<std::decay_t<decltype(shader)>>) {
+      std::size_t const size = end - begin;
+      request_index const* const segment = group.permutation + begin;
+      thrust::for_each_n(exec, thrust::counting_iterator<std::uint32_t>(0),
+                         (size + packed_lanes - 1) / packed_lanes,
+                         [&shader, segment, size](std::uint32_t chunk) {
+                           std::size_t const from = chunk * packed_lanes;
+                           std::size_t const count = std::min(packed_lanes, size - from);
+                           for (std::size_t j = 0; j < count; ++j) {
+                             prefetch(shader.source, segment[from + j]);
+                           }
+                           run_segment(shader, 0, segment + from, count);
+                         });
+    } else {
+      thrust::for_each_n(exec, group.permutation + begin, std::size_t{end - begin},
+                         [&shader](request_index i) { shader(i); });
+    }
   });
 }
 
@@ -45,9 +64,9 @@ void run_explicit(host_system, Policy const& exec, grouping group,
 /// One launch per shader. Schedule 2 of Hoberock et al., HPG 2009, and, over a grouping, the
 /// second half of its schedules 4 and 6.
 ///
-/// On CUDA, launches overlap where the GPU can, and a shader may say how many threads a block of its
-/// launch has, where it knows better than the library, which takes as many, up to 256, as fill the
-/// device:
+/// On CUDA, launches overlap where the GPU can, and a shader may say how many threads a block of
+/// its launch has, where it knows better than the library, which takes as many, up to 256, as fill
+/// the device:
 ///
 ///     struct marble { static constexpr int block_size = 128; /* ... */ };
 struct explicit_serialization {

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <deferred_shade/lanes.hpp>
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/types.hpp>
 
@@ -60,17 +61,46 @@ void counting_sort(Ids const& ids, request_index first, request_index size,
   }
 }
 
+/// Runs a tile as it lies, if neighbours mostly name the same shader: there is nothing to gain from
+/// sorting it. Returns whether it did.
+template <class Ids, class... Shaders>
+bool run_long_stretches(Ids const& ids, request_index first, request_index size,
+                        shader_table<Shaders...> const& shaders) {
+  constexpr shader_id none = sizeof...(Shaders);
+  std::size_t changes = 0;
+  for (request_index i = 1; i < size; ++i) {
+    bool const changed = shader_of(ids, first + i, none) != shader_of(ids, first + i - 1, none);
+    changes += changed ? 1U : 0U;
+  }
+  if (changes > size / long_stretch) return false;
+  for (request_index begin = 0; begin < size;) {
+    shader_id const id = shader_of(ids, first + begin, none);
+    request_index end = begin + 1;
+    while (end < size && shader_of(ids, first + end, none) == id) ++end;
+    shaders.visit(id, [&](auto const& shader) {
+      for (request_index i = begin; i < end; ++i) shader(first + i);
+    });
+    begin = end;
+  }
+  return true;
+}
+
 /// Sorts every tile and runs its requests shader by shader.
 template <request_index Tile, class Policy, class Ids, class... Shaders>
 void run_sorted_tiles(Policy const& exec, request_index n, Ids ids,
                       shader_table<Shaders...> const& shaders) {
   for_each_tile<Tile>(exec, n, [ids, &shaders](request_index first, request_index size) {
+    if (run_long_stretches(ids, first, size, shaders)) return;
+    // In the order in which they lie, which memory delivers fastest.
+    if constexpr ((is_packable<Shaders> && ...)) {
+      auto const& source = shaders.template get<0>().source;
+      for (request_index i = 0; i < size; ++i) prefetch(source, first + i);
+    }
     sorted_tile<sizeof...(Shaders), Tile> tile;
     counting_sort(ids, first, size, tile);
     shaders.for_each([&](auto id, auto const& shader) {
-      for (std::uint32_t p = tile.offsets[id]; p < tile.offsets[id + 1]; ++p) {
-        shader(first + tile.order[p]);
-      }
+      std::uint32_t const begin = tile.offsets[id];
+      run_segment(shader, first, tile.order + begin, tile.offsets[id + 1] - begin);
     });
   });
 }
