@@ -46,7 +46,7 @@ function(deferred_shade_add_system system)
 endfunction()
 
 # deferred_shade::simd: what g++ and clang need to make vectors of record shaders besides -O3 and -march,
-# which are the renderer's choice. Neither flag changes a result; nothing else of the library carries them.
+# which are the renderer's choice. Nothing else of the library carries them.
 if(NOT TARGET deferred_shade::simd)
   add_library(deferred_shade::simd INTERFACE IMPORTED GLOBAL)
   target_compile_options(deferred_shade::simd INTERFACE

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <deferred_shade/lanes.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <deferred_shade/deferred_shade.hpp>
@@ -51,6 +52,37 @@ struct odd_shader {
     return {{r.values[1], r.values[2], static_cast<std::int16_t>(r.values[0] ^ id)}};
   }
 };
+
+/// A record with padding, and with a value that it starts with.
+struct padded {
+  double value = 1;
+  bool flag = false;
+};
+struct padded_shader {
+  double factor;
+  DEFERRED_SHADE_HOST_DEVICE padded operator()(padded const& r) const {
+    padded result;
+    result.value = factor * r.value;
+    result.flag = !r.flag;
+    return result;
+  }
+};
+
+/// The median of three by their ranks: an array that is written where the data say.
+struct median {
+  DEFERRED_SHADE_HOST_DEVICE float operator()(surface const& s) const {
+    float const a = s.normal[0];
+    float const b = s.normal[1];
+    float const c = s.normal[2];
+    float sorted[3];
+    sorted[(a > b ? 1 : 0) + (a > c ? 1 : 0)] = a;
+    sorted[(b >= a ? 1 : 0) + (b > c ? 1 : 0)] = b;
+    sorted[(c >= a ? 1 : 0) + (c >= b ? 1 : 0)] = c;
+    return sorted[1];
+  }
+};
+
+float load_half(ds::request_index i) { return 0.5F * static_cast<float>(i); }
 
 /// A request that becomes its own result.
 struct next_in_place {
@@ -165,6 +197,57 @@ TEMPLATE_LIST_TEST_CASE("records that cannot be packed run all the same", "[lane
     wrong += std::memcmp(&results[i], &expected, sizeof expected) == 0 ? 0U : 1U;
   }
   CHECK(wrong == 0);
+}
+
+TEST_CASE("records with padding, and arrays that the data index, are packed", "[lanes]") {
+  std::uint32_t const n = 20011;
+  CAPTURE(test::run_seed());
+  auto const ids = test::make_ids<std::uint8_t>(test::layout::random, n, 2, test::run_seed());
+  ds::workspace scratch{thrust::cpp::par};
+
+  std::vector<padded> requests(n);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    requests[i].value = i / 7.0;
+    requests[i].flag = i % 3 == 0;
+  }
+  std::vector<padded> results(n);
+  ds::shade(thrust::cpp::par, ds::local_sort_then_dispatch<>{}, n, ids.data(),
+            ds::record_shaders(requests.data(), results.data(), padded_shader{2}, padded_shader{3}),
+            scratch);
+  auto const surfaces = random_surfaces(n, test::run_seed());
+  std::vector<float> medians(n, -2);
+  ds::shade(thrust::cpp::par, ds::local_sort_then_dispatch<>{}, n, ids.data(),
+            ds::record_shaders(surfaces.data(), medians.data(), median{}, median{}), scratch);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    if (ids[i] >= 2) continue;
+    padded const expected = padded_shader{ids[i] + 2.0}(requests[i]);
+    REQUIRE(std::memcmp(&results[i].value, &expected.value, sizeof expected.value) == 0);
+    REQUIRE(results[i].flag == expected.flag);
+    float const middle = median{}(surfaces[i]);
+    REQUIRE(std::memcmp(&medians[i], &middle, sizeof middle) == 0);
+  }
+}
+
+TEST_CASE("functions are sources, and generic lambdas shaders, of packed records", "[lanes]") {
+  std::uint32_t const n = 20011;
+  CAPTURE(test::run_seed());
+  auto const ids = test::make_ids<std::uint8_t>(test::layout::random, n, 2, test::run_seed());
+  std::vector<float> results(n, -1);
+  auto const twice = [](auto& x) { return 2 * x; };
+  auto const plus_one = [](auto const& x) { return x + 1; };
+  ds::workspace scratch{thrust::cpp::par};
+  test::for_each_schedule([&](auto schedule) {
+    std::fill(results.begin(), results.end(), -1.0F);
+    ds::shade(thrust::cpp::par, schedule, n, ids.data(),
+              ds::record_shaders(load_half, results.data(), twice, plus_one), scratch);
+    std::size_t wrong = 0;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      float const x = load_half(i);
+      float const expected = ids[i] == 0 ? 2 * x : ids[i] == 1 ? x + 1 : -1;
+      wrong += std::memcmp(&results[i], &expected, sizeof expected) == 0 ? 0U : 1U;
+    }
+    CHECK(wrong == 0);
+  });
 }
 
 TEST_CASE("packed requests become their own results", "[lanes]") {

@@ -131,17 +131,18 @@ TEST_CASE("a table may have 256 shaders, all of which a byte names", "[shade]") 
   CAPTURE(seed);
   std::uint32_t const n = 30011;
   auto const bytes = test::make_ids<std::uint8_t>(test::layout::descending, n, 256, seed);
-  auto const words = test::make_ids<std::uint16_t>(test::layout::random, n, 256, seed);
+  auto const words = test::make_ids<std::uint16_t>(test::layout::random, n, 300, seed);
   ds::workspace scratch{thrust::cpp::par};
   // One schedule for each way to group and to dispatch; such a table takes seconds to compile.
   auto const check = [&](auto schedule) {
-    test::check_against_loop<test::cpp, 256>(schedule, n, bytes.data(), scratch);
-    test::check_against_loop<test::cpp, 256>(schedule, n, words.data(), scratch);
+    test::check_against_loop<test::cpp, 300>(schedule, n, bytes.data(), scratch);
+    test::check_against_loop<test::cpp, 300>(schedule, n, words.data(), scratch);
   };
   check(ds::sort_then_dispatch<ds::implicit_serialization>{});
   check(ds::bucket_then_dispatch<>{});
   check(ds::local_sort_then_dispatch<>{});
   check(ds::local_sort_then_dispatch<ds::bitonic>{});
+  check(ds::window_sort_then_dispatch{});
 }
 
 TEMPLATE_LIST_TEST_CASE("waves of any size share a workspace, also after an error", "[shade]",

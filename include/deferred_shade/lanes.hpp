@@ -21,13 +21,6 @@
 #define DEFERRED_SHADE_HAS_GNU 0
 #endif
 
-/// Goes before a loop whose iterations do not depend on each other. clang finds that out.
-#if DEFERRED_SHADE_HAS_GNU && !defined(__clang__)
-#define DEFERRED_SHADE_INDEPENDENT_ITERATIONS _Pragma("GCC ivdep")
-#else
-#define DEFERRED_SHADE_INDEPENDENT_ITERATIONS
-#endif
-
 /// Goes before a function that is compiled by itself, with all that it calls inlined.
 #if DEFERRED_SHADE_HAS_GNU
 #define DEFERRED_SHADE_FLATTEN __attribute__((flatten, noinline))
@@ -45,7 +38,7 @@ To bits_as(From const& from) noexcept {
   return __builtin_bit_cast(To, from);
 #else
   To to;
-  std::memcpy(&to, &from, sizeof(To));
+  std::memcpy(static_cast<void*>(&to), &from, sizeof(To));
   return to;
 #endif
 }
@@ -53,8 +46,9 @@ To bits_as(From const& from) noexcept {
 /// Whether a record can be taken apart into words.
 template <class T>
 inline constexpr bool has_words =
-    std::is_trivially_copyable_v<T>&& std::is_default_constructible_v<T> && !std::is_empty_v<T> &&
-    sizeof(T) % 4 == 0 && sizeof(T) <= 256;
+    std::is_trivially_copyable_v<T>&& std::is_default_constructible_v<T>&&
+        std::is_copy_assignable_v<T> &&
+    !std::is_empty_v<T> && sizeof(T) % 4 == 0 && sizeof(T) <= 256;
 
 /// `Size` records of type T, as arrays of their words.
 template <class T, std::size_t Size>
@@ -90,9 +84,6 @@ class lanes {
   std::uint32_t words_[count][Size];
 };
 
-/// Requests that are packed at a time: with their results they fit in a first-level cache.
-inline constexpr std::size_t packed_lanes = 256;
-
 /// A stretch of at least so many neighbours of one shader is run where it lies.
 inline constexpr std::size_t long_stretch = 64;
 
@@ -104,15 +95,29 @@ inline constexpr bool is_packable<record_shader<Source, Function, Sink>> =
     has_words<typename record_shader<Source, Function, Sink>::request_type>&&
         has_words<typename record_shader<Source, Function, Sink>::result_type>;
 
+/// The requests of a shader that are packed at a time: up to 256, and as many as take, with their
+/// results, at most 16 KiB of the first-level cache.
+template <class Shader>
+inline constexpr std::size_t packed_lanes = std::min(std::size_t{256},
+                                                     16384 /
+                                                         (sizeof(typename Shader::request_type) +
+                                                          sizeof(typename Shader::result_type)) /
+                                                         16 * 16);
+
 /// Brings the request that a source holds for request i near to this core, where it holds any.
 template <class Source>
 void prefetch(Source const& source, request_index i) noexcept {
 #if DEFERRED_SHADE_HAS_GNU
-  if constexpr (std::is_pointer_v<Source>) __builtin_prefetch(source + i, 0, 2);
-#else
+  if constexpr (std::is_pointer_v<Source>) {
+    using request = std::remove_pointer_t<Source>;
+    if constexpr (std::is_object_v<request>) {  // an address is all that it takes, valid or not
+      auto const address = reinterpret_cast<std::uintptr_t>(source) + sizeof(request) * i;
+      __builtin_prefetch(reinterpret_cast<void const*>(address), 0, 2);
+    }
+  }
+#endif
   static_cast<void>(source);
   static_cast<void>(i);
-#endif
 }
 
 /// Runs a shader on the requests `first + order[j]` for j from 0 to `count` - 1, which is at most
@@ -121,14 +126,18 @@ void prefetch(Source const& source, request_index i) noexcept {
 template <class Shader, class Order>
 DEFERRED_SHADE_FLATTEN void run_packed(Shader const& shader, request_index first,
                                        Order const* order, std::size_t count) {
-  lanes<typename Shader::request_type, packed_lanes> requests;
-  lanes<typename Shader::result_type, packed_lanes> results;
+  using request = typename Shader::request_type;
+  using result = typename Shader::result_type;
+  lanes<request, packed_lanes<Shader>> requests;
+  lanes<result, packed_lanes<Shader>> results;
   for (std::size_t j = 0; j < count; ++j) {
     requests.copy(j, load(shader.source, first + order[j]));
   }
-  auto const function = shader.function;
-  DEFERRED_SHADE_INDEPENDENT_ITERATIONS
-  for (std::size_t j = 0; j < count; ++j) results.set(j, function(requests.get(j)));
+  auto const& function = shader.function;
+  for (std::size_t j = 0; j < count; ++j) {
+    request const r = requests.get(j);
+    results.set(j, function(r));
+  }
   for (std::size_t j = 0; j < count; ++j) store(shader.sink, first + order[j], results.get(j));
 }
 
@@ -137,8 +146,8 @@ DEFERRED_SHADE_FLATTEN void run_packed(Shader const& shader, request_index first
 template <class Shader, class Order>
 void run_segment(Shader const& shader, request_index first, Order const* order, std::size_t count) {
   if constexpr (is_packable<Shader>) {
-    for (std::size_t begin = 0; begin < count; begin += packed_lanes) {
-      std::size_t const size = std::min(packed_lanes, count - begin);
+    for (std::size_t begin = 0; begin < count; begin += packed_lanes<Shader>) {
+      std::size_t const size = std::min(packed_lanes<Shader>, count - begin);
       Order const* const part = order + begin;
       if (size >= long_stretch && static_cast<std::size_t>(part[size - 1] - part[0]) == size - 1) {
         for (std::size_t j = 0; j < size; ++j) shader(first + part[j]);

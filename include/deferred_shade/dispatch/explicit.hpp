@@ -39,14 +39,17 @@ void run_explicit(host_system, Policy const& exec, grouping group,
     request_index const begin = group.offsets[id];
     request_index const end = group.offsets[id + 1];
     if (begin == end) return;
-    if constexpr (is_packable<std::decay_t<decltype(shader)>>) {
+    using type = std::decay_t<decltype(shader)>;
+    if constexpr (is_packable<type>) {
       std::size_t const size = end - begin;
+      // Small chunks for a small segment, so that every worker has some.
+      std::size_t const chunk = size < 16384 ? 32 : packed_lanes<type>;
       request_index const* const segment = group.permutation + begin;
       thrust::for_each_n(exec, thrust::counting_iterator<std::uint32_t>(0),
-                         (size + packed_lanes - 1) / packed_lanes,
-                         [&shader, segment, size](std::uint32_t chunk) {
-                           std::size_t const from = chunk * packed_lanes;
-                           std::size_t const count = std::min(packed_lanes, size - from);
+                         (size + chunk - 1) / chunk,
+                         [&shader, segment, size, chunk](std::uint32_t c) {
+                           std::size_t const from = c * chunk;
+                           std::size_t const count = std::min(chunk, size - from);
                            for (std::size_t j = 0; j < count; ++j) {
                              prefetch(shader.source, segment[from + j]);
                            }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include <deferred_shade/lanes.hpp>
 #include <deferred_shade/shader_table.hpp>
@@ -92,7 +93,7 @@ void run_sorted_tiles(Policy const& exec, request_index n, Ids ids,
   for_each_tile<Tile>(exec, n, [ids, &shaders](request_index first, request_index size) {
     if (run_long_stretches(ids, first, size, shaders)) return;
     // In the order in which they lie, which memory delivers fastest.
-    if constexpr ((is_packable<Shaders> && ...)) {
+    if constexpr (is_packable<std::decay_t<decltype(shaders.template get<0>())>>) {
       auto const& source = shaders.template get<0>().source;
       for (request_index i = 0; i < size; ++i) prefetch(source, first + i);
     }
