@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <deferred_shade/records.hpp>
 
+#include <algorithm>
+#include <cstring>
 #include <deferred_shade/deferred_shade.hpp>
 #include <vector>
 
 #include "catch.hpp"
 #include "support/backends.hpp"
+#include "support/compare.hpp"
+#include "support/every_schedule.hpp"
 #include "support/random_ids.hpp"
 
 namespace ds = deferred_shade;
@@ -38,6 +42,16 @@ struct store_whole_and_half {
   DEFERRED_SHADE_HOST_DEVICE void operator()(ds::request_index i, float result) const {
     whole[i] = result;
     half[i] = result / 2;
+  }
+};
+
+float load_half(ds::request_index i) { return 0.5F * static_cast<float>(i); }
+
+/// A request that becomes its own result.
+struct next_in_place {
+  std::uint32_t id;
+  DEFERRED_SHADE_HOST_DEVICE std::uint32_t operator()(std::uint32_t x) const {
+    return x * 1664525U + id;
   }
 };
 
@@ -80,4 +94,45 @@ TEMPLATE_LIST_TEST_CASE("records load from and store to functions as well", "[re
     REQUIRE(whole[i] == expected);
     REQUIRE(half[i] == (ids[i] < 3 ? expected / 2 : -1));
   }
+}
+
+TEST_CASE("functions are sources, and generic lambdas shaders, of packed records", "[records]") {
+  std::uint32_t const n = 20011;
+  CAPTURE(test::run_seed());
+  auto const ids = test::make_ids<std::uint8_t>(test::layout::random, n, 2, test::run_seed());
+  std::vector<float> results(n, -1);
+  auto const twice = [](auto& x) { return 2 * x; };
+  auto const plus_one = [](auto const& x) { return x + 1; };
+  ds::workspace scratch{thrust::cpp::par};
+  test::for_each_schedule([&](auto schedule) {
+    std::fill(results.begin(), results.end(), -1.0F);
+    ds::shade(thrust::cpp::par, schedule, n, ids.data(),
+              ds::record_shaders(load_half, results.data(), twice, plus_one), scratch);
+    std::size_t wrong = 0;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      float const x = load_half(i);
+      float const expected = ids[i] == 0 ? 2 * x : ids[i] == 1 ? x + 1 : -1;
+      wrong += std::memcmp(&results[i], &expected, sizeof expected) == 0 ? 0U : 1U;
+    }
+    CHECK(wrong == 0);
+  });
+}
+
+TEST_CASE("packed requests become their own results", "[records]") {
+  std::uint32_t const n = 30011;
+  CAPTURE(test::run_seed());
+  auto const ids = test::make_ids<std::uint8_t>(test::layout::random, n, 2, test::run_seed());
+  std::vector<std::uint32_t> values(n);
+  std::vector<std::uint32_t> expected(n);
+  ds::workspace scratch{thrust::cpp::par};
+  test::for_each_schedule([&](auto schedule) {
+    for (std::uint32_t i = 0; i < n; ++i) {
+      values[i] = i;
+      expected[i] = ids[i] < 2 ? next_in_place{ids[i]}(i) : i;
+    }
+    ds::shade(thrust::cpp::par, schedule, n, ids.data(),
+              ds::record_shaders(values.data(), values.data(), next_in_place{0}, next_in_place{1}),
+              scratch);
+    CHECK(test::first_difference(values, expected) == n);
+  });
 }
