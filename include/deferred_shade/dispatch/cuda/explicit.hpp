@@ -14,7 +14,7 @@ namespace deferred_shade::detail {
 
 /// Runs one shader on the requests that name it.
 template <shader_id Id, shader_id Shaders, class Count, class Ids, class Shader>
-__global__ void masked_kernel(Count n, Ids ids, Shader shader) {
+__global__ void masked_kernel(Count n, Ids ids, Shader const __grid_constant__ shader) {
   independent_kernel const among_those_of_all_shaders(Id == 0);
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   auto const i = static_cast<request_index>(p);
@@ -25,7 +25,7 @@ __global__ void masked_kernel(Count n, Ids ids, Shader shader) {
 /// stretch after another until none is left.
 template <class Shader>
 __global__ void segment_kernel(bool first, request_index const* permutation,
-                               request_index const* offset, Shader shader) {
+                               request_index const* offset, Shader const __grid_constant__ shader) {
   independent_kernel const among_those_of_all_shaders(first);
   std::size_t const end = offset[1];
   std::size_t const stride = std::size_t{gridDim.x} * blockDim.x;
