@@ -116,6 +116,27 @@ TEST_CASE("records come out of lanes as they went in", "[lanes]") {
   }
 }
 
+TEMPLATE_TEST_CASE_SIG("four records go into neighbouring lanes", "[lanes]",
+                       ((std::size_t Words), Words), 1, 2, 3, 4, 5, 7, 8, 12, 64) {
+  struct record {
+    std::uint32_t word[Words];
+  };
+  std::mt19937 engine(test::run_seed());
+  CAPTURE(test::run_seed());
+  record records[4];
+  for (record& r : records) {
+    for (std::uint32_t& word : r.word) word = static_cast<std::uint32_t>(engine());
+  }
+  ds::detail::lanes<record, 8> lanes;
+  for (std::size_t j = 0; j < 8; ++j) lanes.set(j, record{});
+  lanes.copy(3, records[0], records[1], records[2], records[3]);
+  for (std::size_t j = 0; j < 8; ++j) {
+    record const expected = j < 3 || j == 7 ? record{} : records[j - 3];
+    record const there = lanes.get(j);
+    CHECK(std::memcmp(&there, &expected, sizeof there) == 0);
+  }
+}
+
 TEST_CASE("lanes keep the bits of a number that is none", "[lanes]") {
   std::uint32_t const signalling = 0x7fa01234;
   float number;

@@ -10,11 +10,12 @@ cmake_minimum_required(VERSION 3.22)
 # Layers from the lowest up: a pattern per layer, first match wins.
 set(layers
   "version|config"
-  "types|blocks|system|cuda/(runtime|warp|overlap)"
-  "counts|cuda/(allocator|launch|load_keys|rank_in_warp|thread_counts)"
+  "types|blocks|system|bits|cuda/(runtime|warp|overlap)"
+  "counts|math|cuda/(allocator|launch|load_keys|rank_in_warp|thread_counts)"
   "shader_table|workspace|cuda/(tile_sort|tile_rows|host_copy)"
   "records"
   "lanes|cuda/(configuration|staging)"
+  "segment"
   "grouping/cuda/(radix_sort|compact|bucket_tile)"
   "grouping/cuda/(small_bucket|large_bucket)"
   "grouping/cuda/(bucket|windows)"

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include <deferred_shade/lanes.hpp>
+#include <deferred_shade/segment.hpp>
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/system.hpp>
 #include <deferred_shade/types.hpp>
@@ -50,10 +50,14 @@ void run_explicit(host_system, Policy const& exec, grouping group,
                          [&shader, segment, size, chunk](std::uint32_t c) {
                            std::size_t const from = c * chunk;
                            std::size_t const count = std::min(chunk, size - from);
-                           for (std::size_t j = 0; j < count; ++j) {
-                             prefetch(shader.source, segment[from + j]);
-                           }
-                           run_segment(shader, 0, segment + from, count);
+                           // What comes next is prefetched: the next chunk, mostly the same
+                           // worker's.
+                           run_segment(
+                               shader, count, [=](std::size_t j) { return segment[from + j]; },
+                               [=, &shader](std::size_t j) {
+                                 std::size_t const next = from + chunk + j;
+                                 if (next < size) prefetch_records(shader, segment[next]);
+                               });
                          });
     } else {
       thrust::for_each_n(exec, group.permutation + begin, std::size_t{end - begin},

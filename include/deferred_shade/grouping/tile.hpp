@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include <deferred_shade/lanes.hpp>
+#include <deferred_shade/segment.hpp>
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/types.hpp>
 
@@ -62,24 +62,29 @@ void counting_sort(Ids const& ids, request_index first, request_index size,
   }
 }
 
-/// Runs a tile as it lies, if neighbours mostly name the same shader: there is nothing to gain from
-/// sorting it. Returns whether it did.
+/// A tile whose neighbours differ no more often than once in so many requests is not sorted.
+inline constexpr std::size_t long_stretch = 64;
+
+/// Runs a tile stretch by stretch as it lies, if neighbours mostly name the same shader: there is
+/// little to gain from sorting it. Returns whether it did.
 template <class Ids, class... Shaders>
 bool run_long_stretches(Ids const& ids, request_index first, request_index size,
                         shader_table<Shaders...> const& shaders) {
   constexpr shader_id none = sizeof...(Shaders);
-  std::size_t changes = 0;
+  std::size_t changes_left = size / long_stretch;
   for (request_index i = 1; i < size; ++i) {
-    bool const changed = shader_of(ids, first + i, none) != shader_of(ids, first + i - 1, none);
-    changes += changed ? 1U : 0U;
+    if (shader_of(ids, first + i, none) == shader_of(ids, first + i - 1, none)) continue;
+    if (changes_left-- == 0) return false;
   }
-  if (changes > size / long_stretch) return false;
   for (request_index begin = 0; begin < size;) {
     shader_id const id = shader_of(ids, first + begin, none);
     request_index end = begin + 1;
     while (end < size && shader_of(ids, first + end, none) == id) ++end;
     shaders.visit(id, [&](auto const& shader) {
-      for (request_index i = begin; i < end; ++i) shader(first + i);
+      run_segment(
+          shader, end - begin,
+          [start = first + begin](std::size_t j) { return start + static_cast<request_index>(j); },
+          [](std::size_t) {});
     });
     begin = end;
   }
@@ -90,18 +95,22 @@ bool run_long_stretches(Ids const& ids, request_index first, request_index size,
 template <request_index Tile, class Policy, class Ids, class... Shaders>
 void run_sorted_tiles(Policy const& exec, request_index n, Ids ids,
                       shader_table<Shaders...> const& shaders) {
-  for_each_tile<Tile>(exec, n, [ids, &shaders](request_index first, request_index size) {
+  for_each_tile<Tile>(exec, n, [n, ids, &shaders](request_index first, request_index size) {
     if (run_long_stretches(ids, first, size, shaders)) return;
-    // In the order in which they lie, which memory delivers fastest.
-    if constexpr (is_packable<std::decay_t<decltype(shaders.template get<0>())>>) {
-      auto const& source = shaders.template get<0>().source;
-      for (request_index i = 0; i < size; ++i) prefetch(source, first + i);
-    }
     sorted_tile<sizeof...(Shaders), Tile> tile;
     counting_sort(ids, first, size, tile);
+    // The next tile, which mostly is the same worker's, in the order in which it lies.
+    std::size_t next = std::size_t{first} + size;
     shaders.for_each([&](auto id, auto const& shader) {
-      std::uint32_t const begin = tile.offsets[id];
-      run_segment(shader, first, tile.order + begin, tile.offsets[id + 1] - begin);
+      std::uint16_t const* const order = tile.order + tile.offsets[id];
+      std::size_t const count = tile.offsets[id + 1] - tile.offsets[id];
+      run_segment(
+          shader, count, [=](std::size_t j) { return first + order[j]; },
+          [n, next, &shaders](std::size_t j) {
+            if (next + j >= n) return;
+            prefetch_records(shaders.template get<0>(), static_cast<request_index>(next + j));
+          });
+      next += count;
     });
   });
 }

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include <deferred_shade/lanes.hpp>
+#include <deferred_shade/records.hpp>
+#include <deferred_shade/types.hpp>
+
+// How a CPU runs one shader on many requests: their records are packed, and the shader runs over
+// them in a loop that compilers vectorise (docs/guide.md, "Vectors on a CPU").
+
+/// Goes before a function that is compiled by itself, with all that it calls inlined.
+#if DEFERRED_SHADE_HAS_GNU
+#define DEFERRED_SHADE_FLATTEN __attribute__((flatten, noinline))
+#else
+#define DEFERRED_SHADE_FLATTEN
+#endif
+
+namespace deferred_shade::detail {
+
+/// Whether the requests of a shader can be packed.
+template <class Shader>
+inline constexpr bool is_packable = false;
+template <class Source, class Function, class Sink>
+inline constexpr bool is_packable<record_shader<Source, Function, Sink>> =
+    has_words<typename record_shader<Source, Function, Sink>::request_type>&&
+        has_words<typename record_shader<Source, Function, Sink>::result_type>;
+
+/// The requests of a shader that are packed at a time: up to 256, and as many as take, with their
+/// results, at most 16 KiB of the first-level cache.
+template <class Shader>
+inline constexpr std::size_t packed_lanes = std::min(std::size_t{256},
+                                                     16384 /
+                                                         (sizeof(typename Shader::request_type) +
+                                                          sizeof(typename Shader::result_type)) /
+                                                         16 * 16);
+
+/// Brings what a source holds for request i, or a sink has a place for, near to this core. Knows
+/// pointers only.
+template <bool Write, class Pointer>
+void prefetch(Pointer const& pointer, request_index i) noexcept {
+#if DEFERRED_SHADE_HAS_GNU
+  if constexpr (std::is_pointer_v<Pointer>) {
+    using record = std::remove_pointer_t<Pointer>;
+    if constexpr (std::is_object_v<record>) {  // an address is all that it takes, valid or not
+      auto const address = reinterpret_cast<std::uintptr_t>(pointer) + sizeof(record) * i;
+      __builtin_prefetch(reinterpret_cast<void const*>(address), Write, 2);
+    }
+  }
+#endif
+  static_cast<void>(pointer);
+  static_cast<void>(i);
+}
+
+/// The same for a request and its result, where `shader` is a record shader.
+template <class Shader>
+void prefetch_records(Shader const& shader, request_index i) noexcept {
+  if constexpr (is_record_shader<Shader>) {
+    prefetch<false>(shader.source, i);
+    prefetch<true>(shader.sink, i);
+  }
+}
+
+/// Runs a shader on the requests `index_of(j)` for j from 0 to `count` - 1, which is at most
+/// `packed_lanes`, and calls `ahead(j)` between loads. A function of its own, so that all shaders
+/// have their lanes in the same place of the stack, and with all that it calls inlined, since a
+/// loop with a call in it stays scalar.
+template <class Shader, class IndexOf, class Ahead>
+DEFERRED_SHADE_FLATTEN void run_packed(Shader const& shader, std::size_t count, IndexOf index_of,
+                                       Ahead ahead) {
+  using request = typename Shader::request_type;
+  using result = typename Shader::result_type;
+  lanes<request, packed_lanes<Shader>> requests;
+  lanes<result, packed_lanes<Shader>> results;
+  auto const load_one = [&](std::size_t j) -> decltype(auto) {
+    ahead(j);
+    return load(shader.source, index_of(j));
+  };
+  std::size_t packed = 0;
+  for (; packed + 4 <= count; packed += 4) {
+    requests.copy(packed, load_one(packed), load_one(packed + 1), load_one(packed + 2),
+                  load_one(packed + 3));
+  }
+  for (; packed < count; ++packed) requests.copy(packed, load_one(packed));
+  auto const& function = shader.function;
+  for (std::size_t j = 0; j < count; ++j) {
+    request const r = requests.get(j);
+    results.set(j, function(r));
+  }
+  for (std::size_t j = 0; j < count; ++j) store(shader.sink, index_of(j), results.get(j));
+}
+
+/// Runs one shader on the requests `index_of(j)` for j from 0 to `count` - 1. Where they are
+/// packed, calls `ahead(j)` for each, which may prefetch what comes later.
+template <class Shader, class IndexOf, class Ahead>
+void run_segment(Shader const& shader, std::size_t count, IndexOf index_of, Ahead ahead) {
+  if constexpr (is_packable<Shader>) {
+    for (std::size_t begin = 0; begin < count; begin += packed_lanes<Shader>) {
+      run_packed(
+          shader, std::min(packed_lanes<Shader>, count - begin),
+          [=](std::size_t j) { return index_of(begin + j); },
+          [=](std::size_t j) { ahead(begin + j); });
+    }
+  } else {
+    for (std::size_t j = 0; j < count; ++j) shader(index_of(j));
+  }
+}
+
+}  // namespace deferred_shade::detail

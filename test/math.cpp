@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <deferred_shade/math.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "catch.hpp"
+#include "support/random_ids.hpp"
+
+namespace math = deferred_shade::math;
+
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+
+/// How far `got` is from `exact` in units in the last place; 0 where both are the same infinity or
+/// NaN, or where `exact` rounds to `got`.
+double error_in_ulp(float got, long double exact) {
+  auto const rounded = static_cast<float>(exact);
+  if (std::isnan(got) || std::isnan(rounded)) {
+    return std::isnan(got) && std::isnan(rounded) ? 0 : infinity;
+  }
+  if (got == rounded) return 0.5;
+  if (std::isinf(got) || std::isinf(rounded)) return infinity;
+  int exponent = -200;
+  if (rounded != 0) std::frexp(rounded, &exponent);
+  long double const ulp = std::ldexp(1.0L, std::max(exponent - 24, -149));
+  return static_cast<double>(std::fabs(got - exact) / ulp);
+}
+
+struct worst {
+  double error;
+  float at;
+};
+
+/// The largest error of `f` over about a hundred thousand floats, of all signs and exponents, NaN
+/// and denormal numbers among them; those beyond `limit` are left out.
+template <class Function, class Exact>
+worst worst_error(Function f, Exact exact, float limit = not_a_number) {
+  worst result{0, 0};
+  std::uint32_t const stride = 40009;
+  for (std::uint64_t bits = test::run_seed() % stride; bits <= 0xffffffffU; bits += stride) {
+    auto const x = deferred_shade::detail::bits_as<float>(static_cast<std::uint32_t>(bits));
+    if (std::fabs(x) > limit) continue;
+    double const error = error_in_ulp(f(x), exact(x));
+    if (error > result.error) result = {error, x};
+  }
+  return result;
+}
+
+template <class Function, class Exact>
+void check_error(double bound, Function f, Exact exact, float limit = not_a_number) {
+  auto const [error, at] = worst_error(f, exact, limit);
+  CAPTURE(test::run_seed(), at);
+  CHECK(error <= bound);
+}
+
+/// Whether two results are the same number, or both are none.
+bool same(float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+}  // namespace
+
+TEST_CASE("an error is counted in units in the last place", "[math]") {
+  CHECK(error_in_ulp(1, 1) == 0.5);
+  CHECK(error_in_ulp(1 + 0x1p-23F, 1) == 1);
+  CHECK(error_in_ulp(0x1p-149F, 0) == 1);
+  CHECK(error_in_ulp(infinity, 1e50L) == 0.5);
+  CHECK(error_in_ulp(not_a_number, 1) == infinity);
+  CHECK(error_in_ulp(infinity, 1) == infinity);
+}
+
+TEST_CASE("functions of one number are as exact as they say", "[math]") {
+  using extended = long double;
+  check_error(1.1, math::exp, [](float x) { return std::exp(extended{x}); });
+  check_error(0.51, math::log, [](float x) { return std::log(extended{x}); });
+  check_error(
+      1.5, math::sin, [](float x) { return std::sin(extended{x}); }, 0x1p20F);
+  check_error(
+      1.5, math::cos, [](float x) { return std::cos(extended{x}); }, 0x1p20F);
+}
+
+TEST_CASE("powers are as exact as they say", "[math]") {
+  using extended = long double;
+  for (float const y : {0.5F, 2.0F, -1.0F, 5.0F, 1 / 2.4F, -17.3F, 1000.0F, 1e-6F, 1e30F, 0.0F,
+                        infinity, -infinity, not_a_number}) {
+    CAPTURE(y);
+    check_error(
+        1.1, [y](float x) { return math::pow(std::fabs(x), y); },
+        [y](float x) { return std::pow(extended{std::fabs(x)}, extended{y}); });
+  }
+  CHECK(std::isnan(math::pow(-2, 2)));
+  CHECK(math::pow(-2, 0) == 1);
+}
+
+TEST_CASE("numbers at the ends go where <cmath> has them", "[math]") {
+  float const least = std::numeric_limits<float>::denorm_min();
+  float const most = std::numeric_limits<float>::max();
+  for (float const x :
+       {0.0F, -0.0F, 1.0F, -1.0F, least, -least, most, -most, infinity, -infinity, not_a_number}) {
+    CAPTURE(x);
+    CHECK(same(math::exp(x), std::exp(x)));
+    CHECK(error_in_ulp(math::log(x), std::log(static_cast<long double>(x))) <= 0.51);
+    if (!std::isfinite(x)) {
+      CHECK(std::isnan(math::sin(x)));
+      CHECK(std::isnan(math::cos(x)));
+    }
+  }
+  CHECK(math::sin(0) == 0);
+  CHECK(math::cos(0) == 1);
+}
+
+TEST_CASE("sines of large numbers stay what sines can be", "[math]") {
+  std::uint32_t const first = 0x49800000;  // 2^20
+  std::uint32_t const end = 0x7f800000;    // infinity
+  std::uint32_t const stride = 4001;
+  CAPTURE(test::run_seed());
+  for (std::uint32_t bits = first + test::run_seed() % stride; bits < end; bits += stride) {
+    auto const x = deferred_shade::detail::bits_as<float>(bits);
+    CAPTURE(x);
+    double const allowed = 2e-7 + static_cast<double>(x) * 0x1p-51;
+    REQUIRE(std::fabs(math::sin(x) - std::sin(static_cast<double>(x))) <= allowed);
+    REQUIRE(std::fabs(math::cos(x) - std::cos(static_cast<double>(x))) <= allowed);
+    REQUIRE(std::fabs(math::sin(x)) <= 1);
+    REQUIRE(std::fabs(math::cos(-x)) <= 1);
+  }
+}

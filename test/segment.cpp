@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <deferred_shade/segment.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "catch.hpp"
+#include "support/random_ids.hpp"
+
+namespace ds = deferred_shade;
+
+namespace {
+
+struct vertex {
+  float x, y, z;
+};
+struct length {
+  float operator()(vertex const& v) const { return v.x * v.x + v.y * v.y + v.z * v.z; }
+};
+
+/// Makes requests instead of holding them.
+struct made {
+  vertex operator()(ds::request_index i) const {
+    auto const x = static_cast<float>(i);
+    return {x, 2 - x, 0.5F * x};
+  }
+};
+
+/// Runs `shader` on the requests `indices`, and checks that `ahead` is called for each once.
+template <class Shader>
+void run(Shader const& shader, std::vector<std::uint32_t> const& indices) {
+  std::vector<std::size_t> ahead;
+  ds::detail::run_segment(
+      shader, indices.size(), [&indices](std::size_t j) { return indices[j]; },
+      [&ahead](std::size_t j) { ahead.push_back(j); });
+  REQUIRE(ahead.size() == (ds::detail::is_packable<Shader> ? indices.size() : 0));
+  std::sort(ahead.begin(), ahead.end());
+  for (std::size_t j = 0; j < ahead.size(); ++j) REQUIRE(ahead[j] == j);
+}
+
+}  // namespace
+
+TEST_CASE("a segment runs the requests that it is given, and no other", "[segment]") {
+  std::mt19937 engine(test::run_seed());
+  CAPTURE(test::run_seed());
+  for (std::uint32_t const n : {0U, 1U, 3U, 4U, 5U, 255U, 256U, 257U, 1023U}) {
+    CAPTURE(n);
+    std::uint32_t const total = 3 * n + 1;
+    std::vector<std::uint32_t> all(total);
+    for (std::uint32_t i = 0; i < total; ++i) all[i] = i;
+    std::shuffle(all.begin(), all.end(), engine);
+    std::vector<std::uint32_t> const indices(all.begin(), all.begin() + n);
+
+    std::vector<vertex> requests(total);
+    for (std::uint32_t i = 0; i < total; ++i) requests[i] = made{}(i);
+    std::vector<float> expected(total, -1);
+    for (std::uint32_t const i : indices) expected[i] = length{}(requests[i]);
+
+    std::vector<float> loaded(total, -1);
+    auto const from_memory = ds::record_shaders(requests.data(), loaded.data(), length{});
+    run(from_memory.get<0>(), indices);
+    CHECK(loaded == expected);
+
+    std::vector<float> computed(total, -1);
+    auto const from_function = ds::record_shaders(made{}, computed.data(), length{});
+    run(from_function.get<0>(), indices);
+    CHECK(computed == expected);
+
+    std::vector<float> indexed(total, -1);
+    float* const out = indexed.data();
+    vertex const* const in = requests.data();
+    run([in, out](ds::request_index i) { out[i] = length{}(in[i]); }, indices);
+    CHECK(indexed == expected);
+  }
+}
