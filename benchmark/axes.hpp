@@ -2,6 +2,9 @@
 #pragma once
 
 #include <benchmark/benchmark.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 
 #include <algorithm>
 #include <cstdint>
@@ -121,6 +124,14 @@ inline void add_context() {
 #endif
 #ifdef __VERSION__
   benchmark::AddCustomContext("compiler", __VERSION__);
+#endif
+#if defined(__AVX512F__)
+  benchmark::AddCustomContext("vectors", "AVX-512");
+#elif defined(__AVX2__)
+  benchmark::AddCustomContext("vectors", "AVX2");
+#endif
+#ifdef _OPENMP
+  benchmark::AddCustomContext("threads", std::to_string(omp_get_max_threads()));
 #endif
 #ifdef DEFERRED_SHADE_COMMIT
   benchmark::AddCustomContext("commit", DEFERRED_SHADE_COMMIT);

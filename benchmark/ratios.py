@@ -6,10 +6,12 @@
     benchmark_grouping --benchmark_out=grouping.json
     benchmark/ratios.py schedules.json grouping.json
 
-Every ratio is of two medians of one report. Exits with 1 where a cell of a report has an error.
+Every ratio is of two medians of one report, and of its repetitions where it has several
+(--benchmark_repetitions). Exits with 1 where a cell of a report has an error.
 """
 import json
 import math
+import statistics
 import sys
 from collections import defaultdict
 
@@ -19,10 +21,11 @@ CONTROLS = ORACLES + ("known-counts",)
 
 
 def read(path):
-    """The times of a report in µs, {(path of names, n, run): µs}, its context and its errors."""
+    """The times of a report in µs, {(path of names, n, run): µs}, its context, its errors, and the
+    spread of every cell that has repetitions: what lies between its extremes, over its median."""
     with open(path, encoding="utf-8") as file:
         report = json.load(file)
-    times, errors = {}, []
+    times, errors = defaultdict(list), []
     for cell in report["benchmarks"]:
         if cell.get("run_type") == "aggregate":
             continue
@@ -32,9 +35,12 @@ def read(path):
         parts = cell["name"].split("/")
         values = dict(part.split(":", 1) for part in parts if ":" in part)
         names = tuple(part for part in parts if ":" not in part and part != "manual_time")
-        times[names, int(values["n"]), int(values["run"])] = (
+        times[names, int(values["n"]), int(values["run"])].append(
             cell["real_time"] * MICROSECONDS[cell["time_unit"]])
-    return times, report["context"], errors
+    medians = {cell: statistics.median(found) for cell, found in times.items()}
+    spreads = [(max(found) - min(found)) / medians[cell]
+               for cell, found in times.items() if len(found) > 1]
+    return medians, report["context"], errors, spreads
 
 
 def geometric_mean(values):
@@ -144,6 +150,27 @@ def print_schedules(times):
         table(["shaders"] + [size(n) for n in cells.sizes], rows)
 
 
+def print_over_switch(times):
+    """For CPUs, where there is no oracle: every row over the switch."""
+    cells = Cells(times)
+    kinds = list(dict.fromkeys(kind for cell in cells.rows.values() for kind in cell))
+    for kind in kinds:
+        schedules = list(dict.fromkeys(row for cell in cells.rows.values() for row in cell[kind]
+                                       if row not in CONTROLS and row != "implicit"))
+        print(f"## Speedup over unsorted implicit_serialization, {kind} shaders\n")
+        rows = []
+        for run in cells.runs:
+            for shaders in cells.sets:
+                for n in cells.sizes:
+                    row = cells.rows[shaders, n, run][kind]
+                    if "implicit" not in row:
+                        continue
+                    rows.append([run, shaders, size(n), f"{1000 * row['implicit'] / n:.1f}"] +
+                                [f"{row['implicit'] / row[s]:.2f}" if s in row else ""
+                                 for s in schedules])
+        table(["run", "shaders", "n", "implicit, ns per request"] + schedules, rows)
+
+
 def print_grouping(times):
     cells = defaultdict(dict)
     for ((shaders, way), n, run), time in times.items():
@@ -167,17 +194,25 @@ def main(paths):
         sys.exit(__doc__)
     failed = False
     for path in paths:
-        times, context, errors = read(path)
-        keys = ("date", "machine", "cuda_driver", "cuda_runtime", "nvcc", "compiler", "thrust",
-                "deferred_shade", "commit")
+        times, context, errors, spreads = read(path)
+        keys = ("date", "machine", "cuda_driver", "cuda_runtime", "nvcc", "compiler", "vectors",
+                "threads", "thrust", "deferred_shade", "commit")
         print(", ".join(f"{key} {context[key]}" for key in keys if key in context) + "\n")
+        if spreads:
+            print("Medians of repetitions. Between the extremes of a cell lie "
+                  f"{100 * statistics.median(spreads):.0f} % of its median, of the least certain one "
+                  f"{100 * max(spreads):.0f} %.\n")
         for error in errors:
             failed = True
             print(f"Error in {error}\n")
         if not times:
             continue
-        is_grouping = len(next(iter(times))[0]) == 2
-        (print_grouping if is_grouping else print_schedules)(times)
+        if len(next(iter(times))[0]) == 2:
+            print_grouping(times)
+        elif "cuda_driver" in context:
+            print_schedules(times)
+        else:
+            print_over_switch(times)
     return 1 if failed else 0
 
 
