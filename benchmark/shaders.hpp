@@ -80,6 +80,7 @@ struct simple {
 template <int Id>
 struct moderate {
   static constexpr int lights = 4 + Id % 3;
+  static constexpr bool runs_in_vectors = false;  // std::pow and std::sin are calls
 
   DEFERRED_SHADE_HOST_DEVICE result operator()(request const& r) const {
     constexpr float alpha = 0.05F + 0.025F * Id;
@@ -114,6 +115,8 @@ struct moderate {
 /// Thousands of operations: the moderate shader, coloured by eight octaves of noise.
 template <int Id>
 struct procedural {
+  static constexpr bool runs_in_vectors = false;
+
   DEFERRED_SHADE_HOST_DEVICE result operator()(request const& r) const {
     result out = moderate<Id>{}(r);
     float scale = 3;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <random>
+#include <type_traits>
 #include <vector>
 
 #include "catch.hpp"
@@ -18,6 +19,11 @@ struct vertex {
 };
 struct length {
   float operator()(vertex const& v) const { return v.x * v.x + v.y * v.y + v.z * v.z; }
+};
+
+/// The same, one by one.
+struct scalar_length : length {
+  static constexpr bool runs_in_vectors = false;
 };
 
 /// Makes requests instead of holding them.
@@ -35,7 +41,7 @@ void run(Shader const& shader, std::vector<std::uint32_t> const& indices) {
   ds::detail::run_segment(
       shader, indices.size(), [&indices](std::size_t j) { return indices[j]; },
       [&ahead](std::size_t j) { ahead.push_back(j); });
-  REQUIRE(ahead.size() == (ds::detail::is_packable<Shader> ? indices.size() : 0));
+  REQUIRE(ahead.size() == indices.size());
   std::sort(ahead.begin(), ahead.end());
   for (std::size_t j = 0; j < ahead.size(); ++j) REQUIRE(ahead[j] == j);
 }
@@ -62,6 +68,13 @@ TEST_CASE("a segment runs the requests that it is given, and no other", "[segmen
     auto const from_memory = ds::record_shaders(requests.data(), loaded.data(), length{});
     run(from_memory.get<0>(), indices);
     CHECK(loaded == expected);
+
+    std::vector<float> scalar(total, -1);
+    auto const one_by_one = ds::record_shaders(requests.data(), scalar.data(), scalar_length{});
+    run(one_by_one.get<0>(), indices);
+    CHECK(scalar == expected);
+    STATIC_REQUIRE(ds::detail::is_packable<std::decay_t<decltype(from_memory.get<0>())>>);
+    STATIC_REQUIRE(!ds::detail::is_packable<std::decay_t<decltype(one_by_one.get<0>())>>);
 
     std::vector<float> computed(total, -1);
     auto const from_function = ds::record_shaders(made{}, computed.data(), length{});

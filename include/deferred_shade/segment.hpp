@@ -22,13 +22,23 @@
 
 namespace deferred_shade::detail {
 
-/// Whether the requests of a shader can be packed.
+/// Whether a function lets its requests be packed: it does unless it says
+/// `static constexpr bool runs_in_vectors = false;`.
+template <class Function, class = void>
+inline constexpr bool may_run_in_vectors = true;
+template <class Function>
+inline constexpr bool
+    may_run_in_vectors<Function, std::void_t<decltype(Function::runs_in_vectors)>> =
+        Function::runs_in_vectors;
+
+/// Whether the requests of a shader are packed.
 template <class Shader>
 inline constexpr bool is_packable = false;
 template <class Source, class Function, class Sink>
 inline constexpr bool is_packable<record_shader<Source, Function, Sink>> =
-    has_words<typename record_shader<Source, Function, Sink>::request_type>&&
-        has_words<typename record_shader<Source, Function, Sink>::result_type>;
+    may_run_in_vectors<Function>&&
+        has_words<typename record_shader<Source, Function, Sink>::request_type>&&
+            has_words<typename record_shader<Source, Function, Sink>::result_type>;
 
 /// The requests of a shader that are packed at a time: up to 256, and as many as take, with their
 /// results, at most 16 KiB of the first-level cache.
@@ -106,7 +116,10 @@ void run_segment(Shader const& shader, std::size_t count, IndexOf index_of, Ahea
           [=](std::size_t j) { ahead(begin + j); });
     }
   } else {
-    for (std::size_t j = 0; j < count; ++j) shader(index_of(j));
+    for (std::size_t j = 0; j < count; ++j) {
+      ahead(j);
+      shader(index_of(j));
+    }
   }
 }
 

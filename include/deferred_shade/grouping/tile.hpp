@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <type_traits>
 
 #include <deferred_shade/segment.hpp>
@@ -48,45 +49,67 @@ struct sorted_tile {
   std::uint32_t offsets[Shaders + 2];
 };
 
+/// The ids of request `first` and of those after it. A loop that counts from 0 over them becomes
+/// vectors; one over `first + i` does not, because such a sum may wrap.
+template <class Ids>
+Ids ids_from(Ids const& ids, request_index first) {
+  return ids + static_cast<typename std::iterator_traits<Ids>::difference_type>(first);
+}
+
 /// Sorts the `size` requests from `first` on by a stable counting sort.
 template <shader_id Shaders, request_index Tile, class Ids>
 void counting_sort(Ids const& ids, request_index first, request_index size,
                    sorted_tile<Shaders, Tile>& result) {
   // next[k + 1] counts shader k, then becomes the place of its next request.
   std::uint32_t next[Shaders + 2] = {};
-  for (request_index i = 0; i < size; ++i) ++next[shader_of(ids, first + i, Shaders) + 1];
+  Ids const mine = ids_from(ids, first);
+  for (request_index i = 0; i < size; ++i) ++next[shader_of(mine, i, Shaders) + 1];
   for (shader_id k = 0; k <= Shaders; ++k) next[k + 1] += next[k];
   std::copy_n(next, Shaders + 2, result.offsets);
   for (request_index i = 0; i < size; ++i) {
-    result.order[next[shader_of(ids, first + i, Shaders)]++] = static_cast<std::uint16_t>(i);
+    result.order[next[shader_of(mine, i, Shaders)]++] = static_cast<std::uint16_t>(i);
   }
 }
 
-/// A tile whose neighbours differ no more often than once in so many requests is not sorted.
-inline constexpr std::size_t long_stretch = 64;
+/// Where the stretch of neighbours that name the same shader ends that begins at `begin`: at `end`
+/// at the latest.
+template <class Ids>
+request_index end_of_stretch(Ids const& ids, request_index begin, request_index end,
+                             shader_id none) {
+  constexpr request_index step = 32;  // at a time: compilers make vectors of it
+  shader_id const id = shader_of(ids, begin, none);
+  for (; end - begin >= step; begin += step) {
+    Ids const here = ids_from(ids, begin);
+    shader_id differences = 0;
+    for (request_index i = 0; i < step; ++i) differences |= shader_of(here, i, none) ^ id;
+    if (differences != 0) break;
+  }
+  while (begin < end && shader_of(ids, begin, none) == id) ++begin;
+  return begin;
+}
 
-/// Runs a tile stretch by stretch as it lies, if neighbours mostly name the same shader: there is
-/// little to gain from sorting it. Returns whether it did.
+/// Runs a tile as it lies, if neighbours mostly name the same shader: there is little to gain from
+/// sorting it. Returns whether it did.
 template <class Ids, class... Shaders>
 bool run_long_stretches(Ids const& ids, request_index first, request_index size,
                         shader_table<Shaders...> const& shaders) {
   constexpr shader_id none = sizeof...(Shaders);
-  std::size_t changes_left = size / long_stretch;
-  for (request_index i = 1; i < size; ++i) {
-    if (shader_of(ids, first + i, none) == shader_of(ids, first + i - 1, none)) continue;
-    if (changes_left-- == 0) return false;
+  constexpr request_index long_stretch = 64;
+  request_index const end = first + size;
+  request_index stretches = 0;
+  for (request_index begin = first; begin < end; ++stretches) {
+    if (stretches > size / long_stretch) return false;
+    begin = end_of_stretch(ids, begin, end, none);
   }
-  for (request_index begin = 0; begin < size;) {
-    shader_id const id = shader_of(ids, first + begin, none);
-    request_index end = begin + 1;
-    while (end < size && shader_of(ids, first + end, none) == id) ++end;
-    shaders.visit(id, [&](auto const& shader) {
+  for (request_index begin = first; begin < end;) {
+    request_index const next = end_of_stretch(ids, begin, end, none);
+    shaders.visit(shader_of(ids, begin, none), [&](auto const& shader) {
       run_segment(
-          shader, end - begin,
-          [start = first + begin](std::size_t j) { return start + static_cast<request_index>(j); },
+          shader, next - begin,
+          [begin](std::size_t j) { return begin + static_cast<request_index>(j); },
           [](std::size_t) {});
     });
-    begin = end;
+    begin = next;
   }
   return true;
 }
