@@ -12,25 +12,24 @@
 namespace deferred_shade {
 namespace detail {
 
-/// The requests in a window on a CPU.
-inline constexpr request_index host_window = 32768;
-
 template <class Policy, class Ids, class... Shaders, class Workspace>
 void run_windows(host_system, Policy const& exec, request_index n, Ids ids,
                  shader_table<Shaders...> const& shaders, Workspace&) {
-  run_sorted_tiles<host_window>(exec, n, ids, shaders);
+  run_sorted_tiles<counting::tile>(exec, n, ids, shaders);
 }
 
 }  // namespace detail
 
 /// Sorts each window of the wave by a stable counting sort, and runs it shader by shader. A window
-/// is as many neighbouring requests as a second-level cache holds with what they load and store: on
-/// a CPU that of a core, on a GPU the one that all multiprocessors share.
+/// is as many neighbouring requests as a second-level cache holds with what they load and store. On
+/// a CPU that is the cache of a core, and the schedule the same as local_sort_then_dispatch; on a
+/// GPU it is the one that all multiprocessors share.
 ///
-/// It stands between local_sort_then_dispatch and bucket_then_dispatch. Tiles have few requests of
-/// each shader where shaders are many, and code that changes all the time falls out of instruction
-/// caches where shaders are long. Buckets of a whole wave bring requests of one shader together
-/// that lie far apart, and of what is loaded for one request a neighbour's share goes to waste.
+/// There it stands between local_sort_then_dispatch and bucket_then_dispatch. Tiles have few
+/// requests of each shader where shaders are many, and code that changes all the time falls out of
+/// instruction caches where shaders are long. Buckets of a whole wave bring requests of one shader
+/// together that lie far apart, and of what is loaded for one request a neighbour's share goes to
+/// waste.
 ///
 /// On CUDA, three launches for up to 32 shaders, of which the last one is the switch; for larger
 /// tables, what bucket_then_dispatch<implicit_serialization> does.
