@@ -162,6 +162,15 @@ struct wave {
                               material<Ids>{}...);
   }
 
+  /// The means of the results, for programs that do the same.
+  void add_means(benchmark::UserCounters& counters) const {
+    for (std::size_t c = 0; c < 3; ++c) {
+      double sum = 0;
+      for (radiance const& r : results) sum += static_cast<double>(r.rgb[c]);
+      counters[std::string("mean_") + "rgb"[c]] = sum / static_cast<double>(results.size());
+    }
+  }
+
   void clear() { std::fill(results.begin(), results.end(), radiance{{-1, -1, -1}}); }
   bool is_right() const {
     return std::memcmp(results.data(), expected.data(), results.size() * sizeof(radiance)) == 0;
@@ -192,7 +201,9 @@ void add_set(current_wave& current, std::size_t n, std::uint32_t run) {
       };
       w.clear();
       shade();
-      if (bench::check(state, w.is_right())) bench::measure(state, n, shade);
+      if (!bench::check(state, w.is_right())) return;
+      bench::measure(state, n, shade);
+      w.add_means(state.counters);
     };
     bench::add_cell(set + "/record/" + row + end, cell);
   };

@@ -46,9 +46,12 @@ function(deferred_shade_add_system system)
 endfunction()
 
 # deferred_shade::simd: what g++ and clang need to make vectors of record shaders besides -O3 and -march,
-# which are the renderer's choice. Nothing else of the library carries them.
+# which are the renderer's choice. clang inlines what a shader calls only as far as its threshold goes, whatever
+# the function that runs it asks for, and makes no vectors of a loop with a call. Nothing else of the library
+# carries these.
 if(NOT TARGET deferred_shade::simd)
   add_library(deferred_shade::simd INTERFACE IMPORTED GLOBAL)
   target_compile_options(deferred_shade::simd INTERFACE
-    "$<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-fno-math-errno;-fno-trapping-math>")
+    "$<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang,AppleClang>:-fno-math-errno;-fno-trapping-math>"
+    "$<$<COMPILE_LANG_AND_ID:CXX,Clang,AppleClang>:SHELL:-mllvm -inline-threshold=5000>")
 endif()
