@@ -179,13 +179,15 @@ def print_grouping(times):
     print("## Grouping alone, µs\n")
     print("5 bytes: what an id and an index per request take at the rate of the copy, which moves 10."
           "\n")
-    head = ["run", "shaders", "n"] + ways + ["CUB / bucket", "bucket / 5 bytes"]
+    has_cub = "cub-radix-sort" in ways
+    head = (["run", "shaders", "n"] + ways + ["CUB / bucket"] * has_cub + ["bucket / 5 bytes"])
     rows = []
     for (run, shaders, n), row in sorted(cells.items()):
         def ratio(above, below, factor, row=row):
             return f"{factor * row[above] / row[below]:.2f}" if {above, below} <= set(row) else ""
         rows.append([run, shaders, size(n)] + [f"{row[w]:.1f}" if w in row else "" for w in ways] +
-                    [ratio("cub-radix-sort", "bucket", 1), ratio("bucket", "copy-5-bytes", 2)])
+                    [ratio("cub-radix-sort", "bucket", 1)] * has_cub +
+                    [ratio("bucket", "copy-5-bytes", 2)])
     table(head, rows)
 
 

@@ -34,6 +34,12 @@ struct made {
   }
 };
 
+/// Makes them in one place.
+struct made_in_place {
+  vertex* place;
+  vertex const& operator()(ds::request_index i) const { return *place = made{}(i); }
+};
+
 /// Runs `shader` on the requests `indices`, and checks that `ahead` is called for each once.
 template <class Shader>
 void run(Shader const& shader, std::vector<std::uint32_t> const& indices) {
@@ -80,6 +86,12 @@ TEST_CASE("a segment runs the requests that it is given, and no other", "[segmen
     auto const from_function = ds::record_shaders(made{}, computed.data(), length{});
     run(from_function.get<0>(), indices);
     CHECK(computed == expected);
+
+    std::vector<float> reused(total, -1);
+    vertex place{};
+    auto const from_one_place = ds::record_shaders(made_in_place{&place}, reused.data(), length{});
+    run(from_one_place.get<0>(), indices);
+    CHECK(reused == expected);
 
     std::vector<float> indexed(total, -1);
     float* const out = indexed.data();

@@ -56,20 +56,24 @@ class lanes {
   }
   /// Four records to `lane` and the lanes after it.
   void copy(std::size_t lane, T const& a, T const& b, T const& c, T const& d) noexcept {
-    std::size_t word = 0;
 #if DEFERRED_SHADE_HAS_SHUFFLE
-    for (; word + 4 <= count; word += 4) {
+    constexpr std::size_t shuffled = count / 4 * 4;
+    for (std::size_t word = 0; word < shuffled; word += 4) {
       four_words out[4] = {words_of(a, word), words_of(b, word), words_of(c, word),
                            words_of(d, word)};
       transpose(out);
       for (std::size_t i = 0; i < 4; ++i) std::memcpy(&words_[word + i][lane], &out[i], 16);
     }
+#else
+    constexpr std::size_t shuffled = 0;
 #endif
-    for (; word < count; ++word) {
-      copy_word(word, lane, a);
-      copy_word(word, lane + 1, b);
-      copy_word(word, lane + 2, c);
-      copy_word(word, lane + 3, d);
+    if constexpr (shuffled < count) {  // g++ warns of a loop that it knows to be empty
+      for (std::size_t word = shuffled; word < count; ++word) {
+        copy_word(word, lane, a);
+        copy_word(word, lane + 1, b);
+        copy_word(word, lane + 2, c);
+        copy_word(word, lane + 3, d);
+      }
     }
   }
 

@@ -14,8 +14,8 @@
 ///
 /// They take and give what <cmath>'s do, infinities and NaN included, but for the sign of a zero
 /// and what is said of each; errno and the floating-point exceptions mean nothing after them. The
-/// errors in units in the last place are those that test/math.cpp finds against long double. Not
-/// for -ffast-math, which drops NaN and infinity.
+/// errors in units in the last place are those of the host, which test/math.cpp finds against long
+/// double; CUDA states its own. Not for -ffast-math, which drops NaN and infinity.
 namespace deferred_shade::math {
 namespace detail {
 
@@ -121,10 +121,10 @@ DEFERRED_SHADE_HOST_DEVICE inline float log(float x) {
 #endif
 }
 
-/// x to the power of y for x >= 0, and NaN for x < 0 unless y is 0: within 1.1 ulp.
+/// x to the power of y for x >= 0, where -0 is 0, and NaN for x < 0 unless y is 0: within 1.1 ulp.
 DEFERRED_SHADE_HOST_DEVICE inline float pow(float x, float y) {
 #ifdef __CUDA_ARCH__
-  return x < 0 ? ::nanf("") : ::powf(x, y);
+  return x < 0 && y != 0 ? ::nanf("") : ::powf(x == 0 ? 0.0F : x, y);
 #else
   bool const ordinary = x > 0 && x < detail::infinity;
   double const of_others = x == 0 ? -detail::infinity : x < 0 ? detail::not_a_number : x;

@@ -86,16 +86,20 @@ DEFERRED_SHADE_FLATTEN void run_packed(Shader const& shader, std::size_t count, 
   using result = typename Shader::result_type;
   lanes<request, packed_lanes<Shader>> requests;
   lanes<result, packed_lanes<Shader>> results;
-  auto const load_one = [&](std::size_t j) -> decltype(auto) {
-    ahead(j);
-    return load(shader.source, index_of(j));
-  };
   std::size_t packed = 0;
-  for (; packed + 4 <= count; packed += 4) {
-    requests.copy(packed, load_one(packed), load_one(packed + 1), load_one(packed + 2),
-                  load_one(packed + 3));
+  // Four at a time where they stay in memory; a source that is a function may reuse what it refers
+  // to, and its code would be there five times.
+  if constexpr (std::is_pointer_v<decltype(shader.source)>) {
+    auto const at = [&](std::size_t j) -> request const& { return shader.source[index_of(j)]; };
+    for (; packed + 4 <= count; packed += 4) {
+      for (std::size_t j = packed; j < packed + 4; ++j) ahead(j);
+      requests.copy(packed, at(packed), at(packed + 1), at(packed + 2), at(packed + 3));
+    }
   }
-  for (; packed < count; ++packed) requests.copy(packed, load_one(packed));
+  for (; packed < count; ++packed) {
+    ahead(packed);
+    requests.copy(packed, load(shader.source, index_of(packed)));
+  }
   auto const& function = shader.function;
   for (std::size_t j = 0; j < count; ++j) {
     request const r = requests.get(j);
@@ -104,8 +108,8 @@ DEFERRED_SHADE_FLATTEN void run_packed(Shader const& shader, std::size_t count, 
   for (std::size_t j = 0; j < count; ++j) store(shader.sink, index_of(j), results.get(j));
 }
 
-/// Runs one shader on the requests `index_of(j)` for j from 0 to `count` - 1. Where they are
-/// packed, calls `ahead(j)` for each, which may prefetch what comes later.
+/// Runs one shader on the requests `index_of(j)` for j from 0 to `count` - 1, and calls `ahead(j)`
+/// once for each, which may prefetch what comes later.
 template <class Shader, class IndexOf, class Ahead>
 void run_segment(Shader const& shader, std::size_t count, IndexOf index_of, Ahead ahead) {
   if constexpr (is_packable<Shader>) {
