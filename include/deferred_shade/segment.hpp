@@ -89,7 +89,8 @@ DEFERRED_SHADE_FLATTEN void run_packed(Shader const& shader, std::size_t count, 
   std::size_t packed = 0;
   // Four at a time where they stay in memory; a source that is a function may reuse what it refers
   // to, and its code would be there five times.
-  if constexpr (std::is_pointer_v<decltype(shader.source)>) {
+  using source = decltype(shader.source);
+  if constexpr (std::is_same_v<source, request const*> || std::is_same_v<source, request*>) {
     auto const at = [&](std::size_t j) -> request const& { return shader.source[index_of(j)]; };
     for (; packed + 4 <= count; packed += 4) {
       for (std::size_t j = packed; j < packed + 4; ++j) ahead(j);
