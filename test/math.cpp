@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Covers bits.hpp as well, which all of these functions rest on.
 #include <deferred_shade/math.hpp>
 
 #include <algorithm>
@@ -16,8 +17,8 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
-/// How far `got` is from `exact` in units in the last place; 0 where both are the same infinity or
-/// NaN, or where `exact` rounds to `got`.
+/// How far `got` is from `exact` in units in the last place: 0.5, the most that it can be, where
+/// `exact` rounds to `got`, the same infinity included; 0 where both are NaN.
 double error_in_ulp(float got, long double exact) {
   auto const rounded = static_cast<float>(exact);
   if (std::isnan(got) || std::isnan(rounded)) {
