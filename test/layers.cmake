@@ -17,6 +17,7 @@ set(layers
   "lanes|cuda/(configuration|staging)"
   "segment"
   "grouping/cuda/(radix_sort|compact|bucket_tile)"
+  "grouping/cuda/sorted_bucket_tile"
   "grouping/cuda/(small_bucket|large_bucket)"
   "grouping/cuda/(bucket|windows)"
   "grouping/[^/]*"

@@ -2,49 +2,32 @@
 // Covers bits.hpp as well, which all of these functions rest on.
 #include <deferred_shade/math.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
 #include "catch.hpp"
 #include "support/random_ids.hpp"
+#include "support/ulp.hpp"
 
 namespace math = deferred_shade::math;
+using test::error_in_ulp;
 
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
 
-/// How far `got` is from `exact` in units in the last place: 0.5, the most that it can be, where
-/// `exact` rounds to `got`, the same infinity included; 0 where both are NaN.
-double error_in_ulp(float got, long double exact) {
-  auto const rounded = static_cast<float>(exact);
-  if (std::isnan(got) || std::isnan(rounded)) {
-    return std::isnan(got) && std::isnan(rounded) ? 0 : infinity;
-  }
-  if (got == rounded) return 0.5;
-  if (std::isinf(got) || std::isinf(rounded)) return infinity;
-  int exponent = -200;
-  if (rounded != 0) std::frexp(rounded, &exponent);
-  long double const ulp = std::ldexp(1.0L, std::max(exponent - 24, -149));
-  return static_cast<double>(std::fabs(got - exact) / ulp);
-}
-
 struct worst {
   double error;
   float at;
 };
 
-/// The largest error of `f` over about a hundred thousand floats, of all signs and exponents, NaN
-/// and denormal numbers among them; those beyond `limit` are left out.
+/// The largest error of `f` over floats of all kinds; those beyond `limit` are left out.
 template <class Function, class Exact>
 worst worst_error(Function f, Exact exact, float limit = not_a_number) {
   worst result{0, 0};
-  std::uint32_t const stride = 40009;
-  for (std::uint64_t bits = test::run_seed() % stride; bits <= 0xffffffffU; bits += stride) {
-    auto const x = deferred_shade::detail::bits_as<float>(static_cast<std::uint32_t>(bits));
+  for (float const x : test::floats_of_all_kinds()) {
     if (std::fabs(x) > limit) continue;
     double const error = error_in_ulp(f(x), exact(x));
     if (error > result.error) result = {error, x};

@@ -21,7 +21,8 @@ TEMPLATE_LIST_TEST_CASE("group_by_bucket is a stable sort by shader", "[grouping
   check<TestType, std::uint8_t, 5>();
   check<TestType, std::uint8_t, 7>();
   check<TestType, std::uint8_t, 8>();
-  check<TestType, std::int8_t, 11>();
+  check<TestType, std::uint8_t, 11>();
+  check<TestType, std::int8_t, 14>();
   check<TestType, std::uint16_t, 15>();
   check<TestType, std::uint8_t, 16>();
   check<TestType, std::int16_t, 32>();

@@ -2,50 +2,63 @@
 #pragma once
 
 #include <cstdint>
-#include <type_traits>
 
 #include <deferred_shade/cuda/warp.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade::detail {
 
-/// How often each shader is named by one thread's requests, four bits for each in one register or
-/// two: for tables of at most 15 shaders, since those that name none are counted as well.
+/// Sixteen ids of four bits, eight to a word.
+struct packed_keys {
+  std::uint32_t low;
+  std::uint32_t high;
+};
+
+__device__ inline packed_keys pack_keys(std::uint32_t const (&keys)[16]) {
+  packed_keys packed{0, 0};
+#pragma unroll
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    packed.low += keys[i] << 4 * i;
+    packed.high += keys[i + 8] << 4 * i;
+  }
+  return packed;
+}
+
+/// How often each shader is named by one thread's 16 requests, for tables of at most 15 shaders.
+///
+/// Three counts share a word, ten bits each: room for the sums over the threads of a warp.
 template <shader_id Shaders>
 class thread_counts {
-  static_assert(Shaders < 16, "64 bits hold 16 counts");
-  using word = std::conditional_t<(Shaders < 8), std::uint32_t, std::uint64_t>;
+  static_assert(Shaders < 16, "an id has four bits");
+  static constexpr std::uint32_t per_word = 3;
+  static constexpr std::uint32_t bits = 10;
 
  public:
-  /// Counts come in pairs, two halves of a word: those of shaders 2 j and 2 j + 1.
-  static constexpr std::uint32_t pairs = (Shaders + 2) / 2;
+  /// Those that name no shader have the id `Shaders`, and are counted as well.
+  static constexpr std::uint32_t columns = Shaders + 1;
+  static constexpr std::uint32_t words = (columns + per_word - 1) / per_word;
 
-  /// Computes ranks[i], the number of this thread's requests of the same shader before request i,
-  /// and pair_counts, of all its requests.
-  template <std::uint32_t Items>
-  __device__ static void rank(std::uint32_t const (&keys)[Items], std::uint32_t (&ranks)[Items],
-                              std::uint32_t (&pair_counts)[pairs]) {
-    static_assert(Items <= 16, "four bits count to 15, which is what a last request may find");
-    word counts = 0;
-    word half = 0;
+  /// The word that has the count of shader k.
+  __device__ static constexpr std::uint32_t word_of(shader_id k) { return k / per_word; }
+
+  /// The count of shader k, from its word.
+  __device__ static constexpr std::uint32_t count_of(shader_id k, std::uint32_t word) {
+    return word >> k % per_word * bits & ((1U << bits) - 1);
+  }
+
+  __device__ static void count(packed_keys keys, std::uint32_t (&counts)[words]) {
+    // The same bit of all ids, in every other bit of a word.
+    std::uint32_t const lower = (keys.low & 0x33333333) | (keys.high << 2 & 0xcccccccc);
+    std::uint32_t const upper = (keys.low >> 2 & 0x33333333) | (keys.high & 0xcccccccc);
+    std::uint32_t const planes[] = {lower, lower >> 1, upper, upper >> 1};
 #pragma unroll
-    for (std::uint32_t item = 0; item < Items; ++item) {
-      if (item == Items / 2) half = counts;
-      std::uint32_t const shift = keys[item] * 4;
-      ranks[item] = static_cast<std::uint32_t>(counts >> shift) & 15;
-      counts += word{1} << shift;
-      asm("" : "+r"(ranks[item]));  // else the compiler computes it a second time where it is used
-    }
-    // 16 requests of one shader have overflown; those of the second half have not.
-    word const other_half = counts - half;
-    constexpr auto low = static_cast<word>(0x0f0f0f0f0f0f0f0fU);
-    word const even = (half & low) + (other_half & low);
-    word const odd = (half >> 4 & low) + (other_half >> 4 & low);
+    for (std::uint32_t& word : counts) word = 0;
 #pragma unroll
-    for (std::uint32_t j = 0; j < pairs; ++j) {
-      auto const evens = static_cast<std::uint32_t>(even >> j / 4 * 32);
-      auto const odds = static_cast<std::uint32_t>(odd >> j / 4 * 32);
-      pair_counts[j] = __byte_perm(evens, odds, 0x0400 + 0x0101 * (j % 4)) & 0x00ff00ff;
+    for (shader_id k = 0; k < columns; ++k) {
+      std::uint32_t named = 0x55555555;
+#pragma unroll
+      for (std::uint32_t bit = 4; bit-- > 0;) named &= k >> bit & 1 ? planes[bit] : ~planes[bit];
+      counts[word_of(k)] += static_cast<std::uint32_t>(__popc(named)) << k % per_word * bits;
     }
   }
 };

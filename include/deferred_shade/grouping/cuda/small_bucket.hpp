@@ -9,6 +9,7 @@
 #include <deferred_shade/cuda/launch.hpp>
 #include <deferred_shade/cuda/warp.hpp>
 #include <deferred_shade/grouping/cuda/bucket_tile.hpp>
+#include <deferred_shade/grouping/cuda/sorted_bucket_tile.hpp>
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
 
@@ -31,16 +32,18 @@ __global__ void __launch_bounds__(bucket_threads)
     small_bucket_count_kernel(Count n, Ids ids, tile_count_layout layout, std::uint32_t* counts) {
   __shared__ tile_counts<Shaders> counters;
   begin_after_earlier_kernels();
-  std::uint32_t keys[bucket_items];
-  tile_of_block(size_of(n)).load_neighbours_of_thread<Shaders>(ids, keys);
-  counters.count(keys,
+  counters.count(ids, tile_of_block(size_of(n)),
                  [&](shader_id k, std::uint32_t count) { counts[layout(k, blockIdx.x)] = count; });
 }
+
+/// The blocks of small_bucket_place_kernel that share a multiprocessor: what registers allow.
+template <shader_id Shaders>
+inline constexpr int place_blocks = counts_in_registers<Shaders> ? 6 : 4;
 
 /// Sorts every tile and writes each request to where `Output` says that the requests of its shader
 /// and tile go.
 template <shader_id Shaders, class Count, class Ids, class Output>
-__global__ void __launch_bounds__(bucket_threads, 4)
+__global__ void __launch_bounds__(bucket_threads, place_blocks<Shaders>)
     small_bucket_place_kernel(Count n, Ids ids, Output output) {
   __shared__ sorted_bucket_tile<Shaders> sorted;
   __shared__ typename Output::shared_memory shared;
