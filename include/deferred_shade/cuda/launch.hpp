@@ -47,6 +47,7 @@ struct launch_shape {
   std::size_t blocks;
   std::uint32_t threads;
   std::size_t shared_bytes = 0;
+  bool prefers_cache = false;  ///< to shared memory, where both come out of one memory
 };
 
 /// The number of the current device.
@@ -96,6 +97,11 @@ void launch(char const* what, cudaStream_t stream, launch_shape shape,
   if (shape.shared_bytes > 0) {  // with what the kernel has itself, it may be more than the default
     check_cuda(cudaFuncSetAttribute(Kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
                                     static_cast<int>(shape.shared_bytes)),
+               what);
+  }
+  if (shape.prefers_cache) {
+    check_cuda(cudaFuncSetAttribute(Kernel, cudaFuncAttributePreferredSharedMemoryCarveout,
+                                    cudaSharedmemCarveoutMaxL1),
                what);
   }
   cudaLaunchAttribute early{};

@@ -44,9 +44,10 @@ void run_windows(cuda_system, Policy const& exec, Count n, Ids ids,
     window_grouping const windows = group_windows<size>(stream_of(exec), n, ids, scratch);
     std::size_t const maximum = maximum_of(n);
     constexpr std::uint32_t threads = window_threads<Shaders...>;
-    launch<&window_kernel<Shaders...>>("window_sort_then_dispatch", stream_of(exec),
-                                       {blocks_for(maximum, threads), threads}, windows, maximum,
-                                       shaders);
+    // Else it would run with what the sort leaves of the first-level cache, next to nothing.
+    launch_shape const shape{blocks_for(maximum, threads), threads, 0, true};
+    launch<&window_kernel<Shaders...>>("window_sort_then_dispatch", stream_of(exec), shape, windows,
+                                       maximum, shaders);
   } else {
     run_implicit(cuda_system{}, exec, bucket_grouping<size>(cuda_system{}, exec, n, ids, scratch),
                  shaders);
