@@ -11,7 +11,7 @@ cmake_minimum_required(VERSION 3.22)
 set(layers
   "version|config"
   "types|blocks|system|bits|cuda/(runtime|warp|overlap)"
-  "counts|math|cuda/(allocator|launch|load_keys|rank_in_warp|thread_counts)"
+  "counts|math|prefetch|cuda/(allocator|launch|load_keys|rank_in_warp|thread_counts)"
   "shader_table|workspace|cuda/(tile_sort|tile_rows|host_copy)"
   "records"
   "lanes|cuda/(configuration|staging)"
@@ -20,6 +20,7 @@ set(layers
   "grouping/cuda/sorted_bucket_tile"
   "grouping/cuda/(small_bucket|large_bucket)"
   "grouping/cuda/(bucket|windows)"
+  "grouping/counting_sort"
   "grouping/[^/]*"
   "dispatch/cuda/.*"
   "dispatch/[^/]*"

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include <deferred_shade/lanes.hpp>
+#include <deferred_shade/prefetch.hpp>
 #include <deferred_shade/records.hpp>
 #include <deferred_shade/types.hpp>
 
@@ -49,24 +50,8 @@ inline constexpr std::size_t packed_lanes = std::min(std::size_t{256},
                                                           sizeof(typename Shader::result_type)) /
                                                          16 * 16);
 
-/// Brings what a source holds for request i, or a sink has a place for, near to this core. Knows
-/// pointers only.
-template <bool Write, class Pointer>
-void prefetch(Pointer const& pointer, request_index i) noexcept {
-#if DEFERRED_SHADE_HAS_GNU
-  if constexpr (std::is_pointer_v<Pointer>) {
-    using record = std::remove_pointer_t<Pointer>;
-    if constexpr (std::is_object_v<record>) {  // an address is all that it takes, valid or not
-      auto const address = reinterpret_cast<std::uintptr_t>(pointer) + sizeof(record) * i;
-      __builtin_prefetch(reinterpret_cast<void const*>(address), Write, 2);
-    }
-  }
-#endif
-  static_cast<void>(pointer);
-  static_cast<void>(i);
-}
-
-/// The same for a request and its result, where `shader` is a record shader.
+/// Brings request i and the place of its result near to this core, where `shader` is a record
+/// shader.
 template <class Shader>
 void prefetch_records(Shader const& shader, request_index i) noexcept {
   if constexpr (is_record_shader<Shader>) {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
 #include <deferred_shade/blocks.hpp>
+#include <deferred_shade/grouping/counting_sort.hpp>
 #include <deferred_shade/system.hpp>
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
@@ -15,24 +17,17 @@
 namespace deferred_shade {
 namespace detail {
 
-/// Counts the requests of every shader among those from `begin` to `end`; `counts[Shaders]` takes
-/// those that name none.
-template <shader_id Shaders, class Ids>
-void count_block(Ids const& ids, std::size_t begin, std::size_t end, std::uint32_t* counts) {
-  // Neighbours often name the same shader. Four counters in turn keep the one increment from
-  // waiting for the other, as long as they stay in the first-level cache.
-  constexpr std::size_t ways = Shaders < 512 ? 4 : 1;
-  std::uint32_t partial[ways][Shaders + 1] = {};
-  std::size_t i = begin;
-  for (; i + ways <= end; i += ways) {
-    for (std::size_t w = 0; w < ways; ++w) {
-      ++partial[w][shader_of(ids, static_cast<request_index>(i + w), Shaders)];
-    }
-  }
-  for (; i < end; ++i) ++partial[0][shader_of(ids, static_cast<request_index>(i), Shaders)];
-  for (shader_id k = 0; k <= Shaders; ++k) {
-    counts[k] = 0;
-    for (std::size_t w = 0; w < ways; ++w) counts[k] += partial[w][k];
+/// Calls `f(keys, first, size)` for the requests from `begin` to `end`, some thousands at a time:
+/// their keys, the first of them, and their number.
+template <shader_id Shaders, class Ids, class Function>
+void for_each_chunk(Ids const& ids, std::size_t begin, std::size_t end, Function const& f) {
+  constexpr std::size_t chunk = 4096;  // in the first-level cache
+  sort_key<Shaders> keys[chunk];
+  for (std::size_t i = begin; i < end; i += chunk) {
+    auto const first = static_cast<request_index>(i);
+    auto const size = static_cast<request_index>(std::min(chunk, end - i));
+    load_keys<Shaders>(ids, first, size, keys);
+    f(keys, first, size);
   }
 }
 
@@ -46,15 +41,19 @@ grouping bucket_grouping(host_system, Policy const& exec, request_index n, Ids i
       elements<request_index>(columns));
 
   for_each_block(exec, blocks, [=, counts = counts](std::size_t b) {
-    count_block<Shaders>(ids, blocks.begin(b), blocks.end(b), counts + b * columns);
+    key_counts<Shaders> of_block;
+    for_each_chunk<Shaders>(
+        ids, blocks.begin(b), blocks.end(b),
+        [&](auto const* keys, request_index, request_index size) { of_block.add(keys, size); });
+    for (shader_id k = 0; k < columns; ++k) counts[b * columns + k] = of_block.of(k);
   });
   scan_columns(blocks, columns, counts, offsets);
   for_each_block(exec, blocks, [=, counts = counts, permutation = permutation](std::size_t b) {
-    std::uint32_t* const next = counts + b * columns;
-    for (std::size_t i = blocks.begin(b); i < blocks.end(b); ++i) {
-      auto const request = static_cast<request_index>(i);
-      permutation[next[shader_of(ids, request, Shaders)]++] = request;
-    }
+    for_each_chunk<Shaders>(ids, blocks.begin(b), blocks.end(b),
+                            [&](auto const* keys, request_index first, request_index size) {
+                              place_by_keys<(Shaders >= 16)>(keys, size, first,
+                                                             counts + b * columns, permutation);
+                            });
   });
   return {permutation, offsets, n};
 }

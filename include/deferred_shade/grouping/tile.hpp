@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <type_traits>
 
+#include <deferred_shade/grouping/counting_sort.hpp>
 #include <deferred_shade/segment.hpp>
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/types.hpp>
@@ -49,26 +49,22 @@ struct sorted_tile {
   std::uint32_t offsets[Shaders + 2];
 };
 
-/// The ids of request `first` and of those after it. A loop that counts from 0 over them becomes
-/// vectors; one over `first + i` does not, because such a sum may wrap.
-template <class Ids>
-Ids ids_from(Ids const& ids, request_index first) {
-  return ids + static_cast<typename std::iterator_traits<Ids>::difference_type>(first);
-}
-
 /// Sorts the `size` requests from `first` on by a stable counting sort.
 template <shader_id Shaders, request_index Tile, class Ids>
 void counting_sort(Ids const& ids, request_index first, request_index size,
                    sorted_tile<Shaders, Tile>& result) {
-  // next[k + 1] counts shader k, then becomes the place of its next request.
-  std::uint32_t next[Shaders + 2] = {};
-  Ids const mine = ids_from(ids, first);
-  for (request_index i = 0; i < size; ++i) ++next[shader_of(mine, i, Shaders) + 1];
-  for (shader_id k = 0; k <= Shaders; ++k) next[k + 1] += next[k];
-  std::copy_n(next, Shaders + 2, result.offsets);
-  for (request_index i = 0; i < size; ++i) {
-    result.order[next[shader_of(mine, i, Shaders)]++] = static_cast<std::uint16_t>(i);
+  sort_key<Shaders> keys[Tile];
+  load_keys<Shaders>(ids, first, size, keys);
+  key_counts<Shaders> counts;
+  counts.add(keys, size);
+  std::uint32_t next[Shaders + 1];
+  std::uint32_t total = 0;
+  for (shader_id k = 0; k <= Shaders; ++k) {
+    next[k] = result.offsets[k] = total;
+    total += counts.of(k);
   }
+  result.offsets[Shaders + 1] = total;
+  place_by_keys<false>(keys, size, std::uint16_t{0}, next, result.order);
 }
 
 /// Where the stretch of neighbours that name the same shader ends that begins at `begin`: at `end`

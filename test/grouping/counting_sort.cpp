@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// The steps that groupings on a CPU share, next to a plain loop: tables on both sides of each size
+// at which they work in another way, sizes on both sides of their steps.
+#include <deferred_shade/grouping/counting_sort.hpp>
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "../catch.hpp"
+#include "../support/compare.hpp"
+#include "../support/random_ids.hpp"
+
+namespace ds = deferred_shade;
+
+namespace {
+
+constexpr std::size_t capacity = 8192;
+constexpr std::uint32_t sizes[] = {0,  1,  7,  8,    9,    15,   16,   17,   31,   32,
+                                   33, 63, 64, 1000, 4095, 4096, 4097, 8159, 8191, 8192};
+
+template <std::uint32_t Shaders, bool Prefetch, class Number>
+void check_places(std::vector<ds::detail::sort_key<Shaders>> const& keys, Number first) {
+  std::vector<std::vector<Number>> of_key(Shaders + 1);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    of_key[keys[i]].push_back(static_cast<Number>(first + i));
+  }
+  std::vector<Number> expected;
+  std::vector<std::uint32_t> next;
+  std::vector<std::uint32_t> ends;
+  for (auto const& numbers : of_key) {
+    next.push_back(static_cast<std::uint32_t>(expected.size()));
+    expected.insert(expected.end(), numbers.begin(), numbers.end());
+    ends.push_back(static_cast<std::uint32_t>(expected.size()));
+  }
+  std::vector<Number> places(keys.size());
+  ds::detail::place_by_keys<Prefetch>(keys.data(), static_cast<std::uint32_t>(keys.size()), first,
+                                      next.data(), places.data());
+  CHECK(test::first_difference(places, expected) == places.size());
+  CHECK(next == ends);
+}
+
+template <std::uint32_t Shaders>
+void check_table() {
+  for (std::uint32_t const size : sizes) {
+    for (test::layout const how : test::layouts) {
+      std::uint32_t const seed = test::run_seed() + size + static_cast<std::uint32_t>(how);
+      CAPTURE(Shaders, size, static_cast<int>(how), seed);
+      auto const ids = test::make_ids<std::uint32_t>(how, size + 3, Shaders, seed);
+      ds::detail::sort_key<Shaders> loaded[capacity];
+      ds::detail::load_keys<Shaders>(ids.data(), 3, size, loaded);
+      std::vector<ds::detail::sort_key<Shaders>> const keys(loaded, loaded + size);
+      ds::detail::key_counts<Shaders> counts;
+      counts.add(keys.data(), size);
+      counts.add(keys.data(), size / 2);
+      bool right = true;
+      for (std::uint32_t i = 0; i < size; ++i) right &= keys[i] == std::min(ids[i + 3], Shaders);
+      for (std::uint32_t k = 0; k <= Shaders; ++k) {
+        auto const half = keys.begin() + size / 2;
+        right &= counts.of(k) ==
+                 std::count(keys.begin(), keys.end(), k) + std::count(keys.begin(), half, k);
+      }
+      REQUIRE(right);
+      check_places<Shaders, false>(keys, std::uint16_t{0});
+      check_places<Shaders, true>(keys, std::uint32_t{4000000000});
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("keys are loaded, counted and put to their places", "[grouping]") {
+  check_table<1>();
+  check_table<6>();
+  check_table<7>();
+  check_table<12>();
+  check_table<13>();
+  check_table<255>();
+  check_table<256>();
+  check_table<511>();
+  check_table<512>();
+}
