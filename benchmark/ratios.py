@@ -6,6 +6,8 @@
     benchmark_grouping --benchmark_out=grouping.json
     benchmark/ratios.py schedules.json grouping.json
 
+and of benchmark_vectors and benchmark_simd alike.
+
 Every ratio is of two medians of one report, and of its repetitions where it has several
 (--benchmark_repetitions). Exits with 1 where a cell of a report has an error.
 """
@@ -191,6 +193,14 @@ def print_grouping(times):
     table(head, rows)
 
 
+def print_ways(times):
+    """Ways to run one shader over packed records."""
+    ways = {way: 1000 * time / n for ((_, way), n, _), time in times.items()}
+    print("## Ways to vectors, ns per request\n")
+    table(["way", "ns", "faster than scalar"],
+          [[way, f"{time:.2f}", f"{ways['scalar'] / time:.1f}"] for way, time in ways.items()])
+
+
 def main(paths):
     if not paths:
         sys.exit(__doc__)
@@ -209,7 +219,10 @@ def main(paths):
             print(f"Error in {error}\n")
         if not times:
             continue
-        if len(next(iter(times))[0]) == 2:
+        names = next(iter(times))[0]
+        if names[0] == "stone":
+            print_ways(times)
+        elif len(names) == 2:
             print_grouping(times)
         elif "cuda_driver" in context:
             print_schedules(times)
