@@ -89,3 +89,43 @@ TEST_CASE("a shader may be over-aligned, empty, or without a default", "[shader_
   CHECK(address % 64 == 0);
   CHECK(calls == 1);
 }
+
+namespace {
+
+/// Fails to compile where it is asked for the shader of a left-out id.
+struct taking_noting {
+  std::vector<std::uint32_t>* seen;
+  void operator()(noting const& shader) const { seen->push_back(shader.id); }
+};
+
+}  // namespace
+
+TEST_CASE("only keeps ids, and makes no code for the shaders that it leaves out",
+          "[shader_table]") {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> runs;
+  auto const all = table_of(runs, std::make_integer_sequence<std::uint32_t, 40>());
+  auto const some = all.only<39, 3, 3, 17>();
+  using table = decltype(some);
+  STATIC_REQUIRE(table::size() == 40);
+  STATIC_REQUIRE(table::first_id() == 3);
+  STATIC_REQUIRE((table::has<3> && table::has<17> && table::has<39>));
+  STATIC_REQUIRE((!table::has<0> && !table::has<4> && !table::has<38>));
+  STATIC_REQUIRE(sizeof(all.only<3>()) < sizeof(all));
+
+  std::vector<std::uint32_t> seen;
+  for (std::uint32_t id = 0; id < 42; ++id) {
+    some.visit(id, taking_noting{&seen});
+    some.run(id, 7);
+  }
+  CHECK(seen == std::vector<std::uint32_t>{3, 17, 39});
+  using run = std::pair<std::uint32_t, std::uint32_t>;
+  CHECK(runs == std::vector<run>{{3, 7}, {17, 7}, {39, 7}});
+
+  seen.clear();
+  some.for_each([&](auto id, noting const& shader) {
+    CHECK(id == shader.id);
+    seen.push_back(shader.id);
+  });
+  CHECK(seen == std::vector<std::uint32_t>{3, 17, 39});
+  STATIC_REQUIRE(decltype(some.only<17>())::first_id() == 17);
+}

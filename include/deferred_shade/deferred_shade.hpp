@@ -9,6 +9,7 @@
 #include <deferred_shade/schedule/compact_then_dispatch.hpp>
 #include <deferred_shade/schedule/local_sort_then_dispatch.hpp>
 #include <deferred_shade/schedule/sort_then_dispatch.hpp>
+#include <deferred_shade/schedule/specialized.hpp>
 #include <deferred_shade/schedule/window_sort_then_dispatch.hpp>
 #include <deferred_shade/shade.hpp>
 #include <deferred_shade/shader_table.hpp>

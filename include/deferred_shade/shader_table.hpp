@@ -28,13 +28,28 @@ struct table_slots<std::integer_sequence<shader_id, Ids...>, Shaders...>
       : table_slot<Ids, Shaders>{std::move(shaders)}... {}
 };
 
+template <class... Shaders>
+using table_of = table_slots<std::make_integer_sequence<shader_id, sizeof...(Shaders)>, Shaders...>;
+
 template <shader_id Id, class Shader>
 DEFERRED_SHADE_HOST_DEVICE constexpr Shader const& shader_in(
     table_slot<Id, Shader> const& slot) noexcept {
   return slot.shader;
 }
 
+template <shader_id Id, shader_id... Ids>
+inline constexpr bool is_among = ((Id == Ids) || ...);
+
 }  // namespace detail
+
+/// Shaders of a table, by their ids.
+template <shader_id... Ids>
+struct ids {};
+
+/// What stands in a table where shader_table::only has left out a shader: no code is made for it.
+struct no_shader {
+  DEFERRED_SHADE_HOST_DEVICE void operator()(request_index) const {}
+};
 
 /// The shaders that requests can name: the id of a shader is its position.
 ///
@@ -53,6 +68,20 @@ class shader_table {
   /// The number of shaders.
   static constexpr shader_id size() noexcept { return static_cast<shader_id>(sizeof...(Shaders)); }
 
+  /// Whether there is a shader at position `Id`, or `only` has left it out.
+  template <shader_id Id>
+  static constexpr bool has = !std::is_same_v<
+      std::decay_t<decltype(detail::shader_in<Id>(std::declval<detail::table_of<Shaders...>>()))>,
+      no_shader>;
+
+  /// The lowest id that the table has a shader for.
+  static constexpr shader_id first_id() noexcept {
+    constexpr bool present[] = {!std::is_same_v<Shaders, no_shader>...};
+    shader_id id = 0;
+    while (!present[id]) ++id;
+    return id;
+  }
+
   /// The shader at position `Id`.
   template <shader_id Id>
   DEFERRED_SHADE_HOST_DEVICE constexpr auto const& get() const noexcept {
@@ -70,6 +99,17 @@ class shader_table {
   template <class Function>
   DEFERRED_SHADE_HOST_DEVICE void visit(shader_id id, Function const& f) const {
     visit_among<0, size()>(id, f);
+  }
+
+  /// The same table, with the same ids, without the shaders that `Ids` does not list. Requests that
+  /// name one of those are left alone, as if the table had no such id, and no code is made for
+  /// them: for a scene whose materials are known not to need them, a switch over fewer shaders that
+  /// takes fewer registers. See schedule/specialized.hpp for a choice at run time.
+  template <shader_id... Ids>
+  constexpr auto only() const {
+    static_assert(sizeof...(Ids) > 0, "a shader table holds at least one shader");
+    static_assert(((Ids < size()) && ...), "an id lies outside the table");
+    return only_among<Ids...>(std::make_integer_sequence<shader_id, size()>());
   }
 
   /// Calls `f(id, shader)` for every shader in order; `id` is a std::integral_constant.
@@ -112,7 +152,14 @@ class shader_table {
   template <shader_id First, class Function, shader_id... Offsets>
   DEFERRED_SHADE_HOST_DEVICE void visit_leaf(shader_id id, Function const& f,
                                              std::integer_sequence<shader_id, Offsets...>) const {
-    (void)((id == First + Offsets && (f(get<First + Offsets>()), true)) || ...);
+    (void)((id == First + Offsets && visit_one<First + Offsets>(f)) || ...);
+  }
+
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
+  template <shader_id Id, class Function>
+  DEFERRED_SHADE_HOST_DEVICE bool visit_one(Function const& f) const {
+    if constexpr (has<Id>) f(get<Id>());
+    return true;
   }
 
   DEFERRED_SHADE_EXEC_CHECK_DISABLE
@@ -131,11 +178,31 @@ class shader_table {
   template <shader_id First, class Function, shader_id... Offsets>
   DEFERRED_SHADE_HOST_DEVICE void for_each_leaf(
       Function& f, std::integer_sequence<shader_id, Offsets...>) const {
-    (f(std::integral_constant<shader_id, First + Offsets>{}, get<First + Offsets>()), ...);
+    (call_for<First + Offsets>(f), ...);
   }
 
-  detail::table_slots<std::make_integer_sequence<shader_id, sizeof...(Shaders)>, Shaders...>
-      shaders_;
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
+  template <shader_id Id, class Function>
+  DEFERRED_SHADE_HOST_DEVICE void call_for(Function& f) const {
+    if constexpr (has<Id>) f(std::integral_constant<shader_id, Id>{}, get<Id>());
+  }
+
+  template <shader_id... Ids, shader_id... All>
+  constexpr auto only_among(std::integer_sequence<shader_id, All...>) const {
+    return shader_table<std::conditional_t<detail::is_among<All, Ids...>, Shaders, no_shader>...>{
+        get_if<All, detail::is_among<All, Ids...>>()...};
+  }
+
+  template <shader_id Id, bool Keep>
+  constexpr auto get_if() const {
+    if constexpr (Keep) {
+      return get<Id>();
+    } else {
+      return no_shader{};
+    }
+  }
+
+  detail::table_of<Shaders...> shaders_;
 };
 
 template <class... Shaders>

@@ -127,7 +127,8 @@ void run_sorted_tiles(Policy const& exec, request_index n, Ids ids,
           shader, count, [=](std::size_t j) { return first + order[j]; },
           [n, next, &shaders](std::size_t j) {
             if (next + j >= n) return;
-            prefetch_records(shaders.template get<0>(), static_cast<request_index>(next + j));
+            prefetch_records(shaders.template get<shader_table<Shaders...>::first_id()>(),
+                             static_cast<request_index>(next + j));
           });
       next += count;
     });

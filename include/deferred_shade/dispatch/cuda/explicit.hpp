@@ -14,8 +14,8 @@ namespace deferred_shade::detail {
 
 /// Runs one shader on the requests that name it.
 template <shader_id Id, shader_id Shaders, class Count, class Ids, class Shader>
-__global__ void masked_kernel(Count n, Ids ids, Shader const __grid_constant__ shader) {
-  independent_kernel const among_those_of_all_shaders(Id == 0);
+__global__ void masked_kernel(bool first, Count n, Ids ids, Shader const __grid_constant__ shader) {
+  independent_kernel const among_those_of_all_shaders(first);
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   auto const i = static_cast<request_index>(p);
   if (p < size_of(n) && shader_of(ids, i, Shaders) == Id) shader(i);
@@ -43,7 +43,7 @@ void run_explicit(cuda_system, Policy const& exec, Count n, Ids ids,
         &masked_kernel<decltype(id)::value, sizeof...(Shaders), Count, Ids, type>;
     std::uint32_t const threads = occupancy_of<kernel>(declared_block_size<type>).threads;
     launch<kernel>("explicit_serialization", stream, {blocks_for(maximum_of(n), threads), threads},
-                   n, ids, shader);
+                   id == shaders.first_id(), n, ids, shader);
   });
 }
 
@@ -59,8 +59,8 @@ void run_explicit(cuda_system, Policy const& exec, grouping group,
     std::size_t const share = blocks_for(group.maximum / sizeof...(Shaders), threads);
     std::size_t const blocks =
         std::min(blocks_for(group.maximum, threads), std::max(resident, share));
-    launch<kernel>("explicit_serialization", stream, {blocks, threads}, id == 0, group.permutation,
-                   group.offsets + id, shader);
+    launch<kernel>("explicit_serialization", stream, {blocks, threads}, id == shaders.first_id(),
+                   group.permutation, group.offsets + id, shader);
   });
 }
 
