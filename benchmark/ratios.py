@@ -198,7 +198,8 @@ def print_ways(times):
     ways = {way: 1000 * time / n for ((_, way), n, _), time in times.items()}
     print("## Ways to vectors, ns per request\n")
     table(["way", "ns", "faster than scalar"],
-          [[way, f"{time:.2f}", f"{ways['scalar'] / time:.1f}"] for way, time in ways.items()])
+          [[way, f"{time:.2f}", f"{ways['scalar'] / time:.1f}" if "scalar" in ways else ""]
+           for way, time in ways.items()])
 
 
 def main(paths):

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a compiler makes of a scalar shader in a loop over packed lanes, next to the same shader
 // written for vectors by hand (std::experimental::simd, where the standard library has it): what
-// decided that the library asks for no vector types. The records are packed and in the first-level
-// cache. Names: shader / way / n / run.
+// decided that the library asks for no vector types. All records are in the first-level cache, and
+// packed but for the scalar loop. Names: shader / way / n / run.
 #include <deferred_shade/lanes.hpp>
 
 #include <cmath>
@@ -15,7 +15,6 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 #include <experimental/simd>
-#define DEFERRED_SHADE_BENCHMARK_HAS_SIMD 1
 #endif
 
 #include "axes.hpp"
@@ -98,7 +97,7 @@ struct planes {
   alignas(64) float result[lanes];
 };
 
-#ifdef DEFERRED_SHADE_BENCHMARK_HAS_SIMD
+#ifdef __cpp_lib_experimental_parallel_simd
 namespace stdx = std::experimental;
 __attribute__((flatten, noinline)) void run_vectors(planes& p) {
   using floats = stdx::native_simd<float>;
@@ -164,7 +163,7 @@ int main(int argc, char** argv) {
     add(
         "compiler", [] { run_loop(packed, results); },
         [](std::size_t j) { return results.get(j); });
-#ifdef DEFERRED_SHADE_BENCHMARK_HAS_SIMD
+#ifdef __cpp_lib_experimental_parallel_simd
     add(
         "by-hand", [] { run_vectors(by_hand); }, [](std::size_t j) { return by_hand.result[j]; });
 #endif

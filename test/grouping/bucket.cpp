@@ -23,6 +23,7 @@ TEMPLATE_LIST_TEST_CASE("group_by_bucket is a stable sort by shader", "[grouping
   check<TestType, std::uint8_t, 8>();
   check<TestType, std::uint8_t, 11>();
   check<TestType, std::int8_t, 14>();
+  check<TestType, std::uint8_t, 15>();
   check<TestType, std::uint16_t, 15>();
   check<TestType, std::uint8_t, 16>();
   check<TestType, std::int16_t, 32>();
@@ -34,4 +35,6 @@ TEMPLATE_LIST_TEST_CASE("group_by_bucket is a stable sort by shader", "[grouping
   check<TestType, std::int16_t, 512>();
   check<TestType, std::uint32_t, 1000>();
   check<TestType, std::int32_t, 3000>();
+  check<TestType, std::uint16_t, 65535>();
+  check<TestType, std::uint32_t, 65536>();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
@@ -56,13 +57,15 @@ enum class layout {
 inline constexpr layout layouts[] = {layout::random, layout::coherent, layout::one_shader,
                                      layout::none, layout::descending};
 
-/// An id that no table of `shaders` shaders has: -1 or another negative one, the first beyond, or
-/// the largest. An 8-bit type that 256 shaders fill has none; the caller's table is smaller.
+/// An id that no table of `shaders` shaders has: -1 or another negative one, one of the first
+/// beyond, or the largest. An 8-bit type that 256 shaders fill has none; the caller's table is
+/// smaller.
 template <class Id>
 Id outside(std::uint32_t shaders, std::mt19937& engine) {
+  std::uint64_t const largest = static_cast<std::uint64_t>(std::numeric_limits<Id>::max());
   switch (engine() % 3) {
     case 0:
-      return static_cast<Id>(shaders);
+      return static_cast<Id>(std::min<std::uint64_t>(shaders + engine() % 8, largest));
     case 1:
       return static_cast<Id>(-1);
     default:

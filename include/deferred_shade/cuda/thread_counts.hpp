@@ -32,9 +32,10 @@ class thread_counts {
   static_assert(Shaders < 16, "an id has four bits");
   static constexpr std::uint32_t per_word = 3;
   static constexpr std::uint32_t bits = 10;
+  static_assert(16 * warp_size < 1U << bits, "a count holds the requests of a warp");
 
  public:
-  /// Those that name no shader have the id `Shaders`, and are counted as well.
+  /// The id `Shaders` is counted as well, those above it are not.
   static constexpr std::uint32_t columns = Shaders + 1;
   static constexpr std::uint32_t words = (columns + per_word - 1) / per_word;
 

@@ -23,16 +23,16 @@ Ids ids_from(Ids const& ids, request_index first) {
   return ids + static_cast<typename std::iterator_traits<Ids>::difference_type>(first);
 }
 
+/// Loads the shaders of the first `size` requests: `Shaders` for those that name none.
 template <shader_id Shaders, class Ids>
-inline void load_keys(Ids const& ids, std::size_t size, sort_key<Shaders>* __restrict keys) {
+void load_keys(Ids const& ids, std::size_t size, sort_key<Shaders>* __restrict keys) {
   for (std::size_t i = 0; i < size; ++i) {
     keys[i] =
         static_cast<sort_key<Shaders>>(shader_of(ids, static_cast<request_index>(i), Shaders));
   }
 }
 
-/// Loads the shaders of the `size` requests from `first` on, at most `Size`: `Shaders` for those
-/// that name none.
+/// The same for the `size` requests from `first` on, at most `Size`.
 template <shader_id Shaders, std::size_t Size, class Ids>
 void load_keys(Ids const& ids, request_index first, request_index size,
                sort_key<Shaders> (&keys)[Size]) {

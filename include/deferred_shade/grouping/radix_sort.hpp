@@ -13,6 +13,7 @@
 #include <type_traits>
 
 #include <deferred_shade/blocks.hpp>
+#include <deferred_shade/grouping/counting_sort.hpp>
 #include <deferred_shade/system.hpp>
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
@@ -62,10 +63,7 @@ grouping radix_grouping(host_system, Policy const& exec, request_index n, Ids id
         std::size_t const begin = blocks.begin(b);
         std::size_t const size = blocks.end(b) - begin;
         key* const first = keys + begin;
-        for (std::size_t i = 0; i < size; ++i) {
-          first[i] =
-              static_cast<key>(shader_of(ids, static_cast<request_index>(begin + i), Shaders));
-        }
+        load_keys<Shaders>(ids_from(ids, static_cast<request_index>(begin)), size, first);
         thrust::sequence(thrust::seq, indices + begin, indices + begin + size,
                          static_cast<request_index>(begin));
         arena memory(temporary + begin * pair_size, (size + 63) / 64 * 64 * pair_size);

@@ -41,10 +41,11 @@ struct tile_of_block {
     load_neighbours<Shaders>(ids, first + mine, mine < size ? size - mine : 0, keys);
   }
 
-  /// The same, packed and in any order, for tables of at most 15 shaders.
+  /// The same, packed and in any order, for tables of at most 15 shaders. Those that name none have
+  /// any id that the table lacks.
   template <shader_id Shaders, class Ids>
   __device__ packed_keys load_packed_neighbours_of_thread(Ids const& ids) const {
-    if constexpr (std::is_convertible_v<Ids, std::uint8_t const*>) {
+    if constexpr (std::is_pointer_v<Ids> && std::is_convertible_v<Ids, std::uint8_t const*>) {
       std::uint32_t const mine = threadIdx.x * bucket_items;
       auto const* const vector = reinterpret_cast<uint4 const*>(ids + first + mine);
       if (mine + bucket_items <= size &&
@@ -121,7 +122,7 @@ class tile_counts {
 
  private:
   static constexpr bool small = counts_in_registers<Shaders>;
-  std::uint32_t memory_[small ? bucket_warps : words][small ? warp_size : bucket_threads];
+  std::uint32_t memory_[small ? bucket_warps : words][small ? 8 : bucket_threads];
 };
 
 }  // namespace deferred_shade::detail
