@@ -5,40 +5,6 @@
 
 namespace path_tracer {
 
-/// The lobe of KHR_materials_clearcoat: a dielectric of F0 0.04, scaled by its factor.
-struct coat_lobe {
-  float factor, roughness;
-  albedo_tables const* tables;
-
-  PT_HD bsdf_value value(vec3 wo, vec3 wi) const { return lobe().value(wo, wi); }
-  PT_HD vec3 direction(vec3 wo, vec3 u) const { return lobe().direction(wo, u); }
-  PT_HD float albedo(float cos_theta) const {
-    vec2 const e = tables->ggx(cos_theta, roughness);
-    return factor * (0.04f * e.x + e.y);
-  }
-
- private:
-  PT_HD specular_lobe lobe() const {
-    return {{alpha_of(roughness)}, vec3{0.04f * factor}, vec3{factor}};
-  }
-};
-
-/// The lobe of KHR_materials_sheen.
-struct sheen_lobe {
-  vec3 color;
-  float roughness;
-  albedo_tables const* tables;
-
-  PT_HD bsdf_value value(vec3 wo, vec3 wi) const {
-    if (wi.z <= 0) return {};
-    return {color * charlie{sheen_alpha(roughness)}.reflect(wo, wi), 1 / (2 * pi)};
-  }
-  PT_HD vec3 direction(vec3, vec3 u) const { return polar(u.y, 2 * pi * u.x); }
-  PT_HD float albedo(float cos_theta) const {
-    return max_component(color) * tables->sheen(cos_theta, roughness);
-  }
-};
-
 /// A lobe on top of a material, which gets what the lobe leaves of the light: the share
 /// min(1 - E(wo), 1 - E(wi)), as KHR_materials_sheen has it, for E the albedo of the lobe.
 template <class Lobe, class Base>

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "gltf_document.hpp"
+#include "gltf_properties.hpp"
 #include "gltf_rules.hpp"
 
 namespace path_tracer::gltf {
@@ -51,15 +52,29 @@ bool ends_with(std::string const& s, std::string_view end) {
   return s.size() >= end.size() && std::string_view(s).substr(s.size() - end.size()) == end;
 }
 
-std::unordered_map<std::string, rule const*> expanded_rules() {
-  std::unordered_map<std::string, rule const*> result;
+template <class Part>
+rule rule_of(property<Part> const& p) {
+  if (p.flag != nullptr) return text(p.path);
+  return p.color != nullptr ? numbers(p.path, 3, p.low, p.high) : number(p.path, p.low, p.high);
+}
+
+std::unordered_map<std::string, rule> expanded_rules() {
+  std::unordered_map<std::string, rule> result;
   std::string base;
   for (rule const& r : rules) {
     std::string const path = r.path;
     bool const relative = !path.empty() && path[0] == '@';
     if (!relative && ends_with(path, "/*")) base = path + "/";
-    result.emplace(relative ? base + path.substr(1) : path, &r);
+    result.emplace(relative ? base + path.substr(1) : path, r);
   }
+  for_each_property([&](std::string const& path, auto const& p) {
+    result.emplace(path, rule_of(p));
+    // What holds it is an object; extras belong to the application and have no rule.
+    for (auto slash = path.rfind('/'); !ends_with(path.substr(0, slash), "/*");
+         slash = path.rfind('/', slash - 1))
+      if (path.substr(0, slash).find("/extras") == std::string::npos)
+        result.emplace(path.substr(0, slash), object(""));
+  });
   return result;
 }
 
@@ -70,7 +85,7 @@ class checker {
   void visit(json const& value, std::string const& path) {
     auto const found = rules_.find(path);
     if (found == rules_.end()) return unknown(path);
-    rule const& r = *found->second;
+    rule const& r = found->second;
     switch (r.type) {
       case value_type::object:
         if (!value.is_object()) fail("is not an object");
@@ -184,7 +199,7 @@ class checker {
   }
 
   json const& root_;
-  std::unordered_map<std::string, rule const*> rules_;
+  std::unordered_map<std::string, rule> rules_;
   std::vector<std::string> where_;
   omissions left_out_;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf_document.hpp"
+#include "gltf_properties.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -16,13 +17,10 @@ namespace {
 constexpr std::uintmax_t maximum_file_size = 0xffff'ffffu;  // tinygltf and .glb count 32 bits
 constexpr int maximum_depth = 64;                           // of JSON; tinygltf recurses over it
 
-constexpr std::string_view supported_extensions[] = {"KHR_materials_emissive_strength",
-                                                     "KHR_materials_ior",
-                                                     "KHR_materials_transmission",
-                                                     "KHR_materials_specular",
-                                                     "KHR_materials_clearcoat",
-                                                     "KHR_materials_sheen",
-                                                     "KHR_lights_punctual"};
+/// Those that no effect brings.
+constexpr std::string_view supported_extensions[] = {
+    "KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_transmission",
+    "KHR_materials_specular", "KHR_lights_punctual"};
 
 std::string read_file(std::string const& path) {
   std::error_code error;
@@ -92,9 +90,16 @@ void check_asset(json const& root) {
 }
 
 void check_extensions(document& d) {
-  auto const supported = [](std::string const& name) {
-    return std::find(std::begin(supported_extensions), std::end(supported_extensions), name) !=
-           std::end(supported_extensions);
+  std::vector<std::string> known(std::begin(supported_extensions), std::end(supported_extensions));
+  std::string const holder = "/extensions/";
+  for_each_property([&](std::string const& path, auto const&) {
+    auto const at = path.find(holder);
+    if (at == std::string::npos) return;
+    std::string const name = path.substr(at + holder.size());
+    known.push_back(name.substr(0, name.find('/')));
+  });
+  auto const supported = [&](std::string const& name) {
+    return std::find(known.begin(), known.end(), name) != known.end();
   };
   for (std::string const& name :
        value_at(d.root, "/extensionsRequired", std::vector<std::string>{}))

@@ -6,12 +6,11 @@
 #include <utility>
 
 #include "gltf_parts.hpp"
+#include "gltf_properties.hpp"
 
 namespace path_tracer::gltf {
 namespace {
 
-constexpr float smooth_below = 0.03f;    // roughness; the reason is in gltf.hpp
-constexpr float metal_from = 0.99f;      // metallic
 constexpr float infinite_ior = 1000.0f;  // what KHR_materials_ior means by an ior of 0
 
 float number_at(json const& from, char const* pointer, float otherwise) {
@@ -35,10 +34,12 @@ class material_reader {
     m.metallic_roughness_texture =
         add_texture(from, "/pbrMetallicRoughness/metallicRoughnessTexture", false);
     m.normal_texture = add_texture(from, "/normalTexture", false);
-    choose_shader(from, m);
+    read_parts(from, m);
+    choose(m);
     if (value_at(from, "/alphaMode", std::string("OPAQUE")) != "OPAQUE")
       document_.left_out.add("alphaMode " + from["alphaMode"].get<std::string>(), where_);
     scene_.materials.push_back(m);
+    scene_.material_names.push_back(value_at(from, "/name", std::string()));
   }
 
  private:
@@ -58,50 +59,33 @@ class material_reader {
     m.specular = number_at(from, "/extensions/KHR_materials_specular/specularFactor", 1);
     m.specular_color =
         color_at(from, "/extensions/KHR_materials_specular/specularColorFactor", vec3(1));
-    m.clearcoat = number_at(from, "/extensions/KHR_materials_clearcoat/clearcoatFactor", 0);
-    m.clearcoat_roughness =
-        number_at(from, "/extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", 0);
-    m.sheen_color = color_at(from, "/extensions/KHR_materials_sheen/sheenColorFactor", vec3(0));
-    m.sheen_roughness = number_at(from, "/extensions/KHR_materials_sheen/sheenRoughnessFactor", 0);
     m.second_color = color_at(from, "/extras/second_color", vec3(0));
     m.pattern_scale = number_at(from, "/extras/pattern_scale", 1);
     return m;
   }
 
-  void choose_shader(json const& from, material& m) {
+  void read_parts(json const& from, material& m) {
+    read_properties(from, m);
+    std::string const asked = value_at(from, "/extras/shader", std::string());
+    if (!asked.empty() && !m.is_marble && !m.is_wood)
+      document_.left_out.add("extras.shader \"" + asked + "\"", where_);
+  }
+
+  void choose(material& m) {
     if (m.ior < 1) fail("its ior is between 0 and 1");
     if (!(max_component(m.emission) <= 1e30f)) fail("its emission is beyond the range of a float");
-    std::string const asked = value_at(from, "/extras/shader", std::string());
-    bool const has_sheen = max_component(m.sheen_color) > 0;
-    if (!asked.empty() && asked != "marble" && asked != "wood")
-      document_.left_out.add("extras.shader \"" + asked + "\"", where_);
-
-    if (max_component(m.emission) > 0)
-      m.kind = shader::emitter;
-    else if (asked == "marble" || asked == "wood")
-      m.kind = asked == "wood" ? shader::wood : shader::marble;
-    else if (m.transmission > 0 && m.metallic < metal_from)
-      m.kind = m.roughness < smooth_below ? shader::smooth_glass : shader::rough_glass;
-    else if (m.clearcoat > 0)
-      m.kind = shader::clearcoat;
-    else if (has_sheen)
-      m.kind = shader::sheen;
-    else if (m.metallic >= metal_from && m.metallic_roughness_texture == no_texture)
-      m.kind = shader::metal;
-    else if (m.metallic == 0 && m.specular == 0)
-      m.kind = shader::matte;
-    else
-      m.kind = shader::plastic;
-
-    if (m.kind == shader::smooth_glass) m.roughness = 0;
-    bool const glass = m.kind == shader::smooth_glass || m.kind == shader::rough_glass;
-    char const* const under = " under another shader";
-    if (m.transmission > 0 && m.metallic < metal_from && !glass)
-      document_.left_out.add(std::string("transmission") + under, where_);
-    if (m.clearcoat > 0 && m.kind != shader::clearcoat)
-      document_.left_out.add(std::string("clearcoat") + under, where_);
-    if (has_sheen && m.kind != shader::sheen)
-      document_.left_out.add(std::string("sheen") + under, where_);
+    choose_shader(m, effect_bits().set());
+    auto const hidden = [&](std::string const& name) {
+      document_.left_out.add(name + " under another shader", where_);
+    };
+    if (effects::is_glass(m) && m.kind != shader_of<effects::smooth_glass> &&
+        m.kind != shader_of<effects::rough_glass>)
+      hidden("transmission");
+    for_each_effect(all_effects{}, [&](auto effect) {
+      using type = decltype(effect);
+      if constexpr (path_tracer::detail::has_shader<type> && has_material_properties<type>)
+        if (m.kind != shader_of<type> && type::fits(m)) hidden(type::name);
+    });
   }
 
   std::int32_t add_texture(json const& material, char const* pointer, bool srgb) {
@@ -187,7 +171,7 @@ void append_materials(document& d, scene& out) {
   material otherwise;
   otherwise.base_color = vec3(1);
   otherwise.metallic = 1;
-  otherwise.kind = shader::metal;
+  otherwise.kind = shader_of<effects::metal>;
   out.materials.push_back(otherwise);
 }
 

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "gltf_parts.hpp"
+#include "gltf_properties.hpp"
 
 namespace path_tracer::gltf {
 namespace {
@@ -46,6 +47,7 @@ camera make_camera(document const& d, std::size_t index, glm::dmat4 const& to_wo
   glm::dvec3 const forward = -glm::normalize(glm::dvec3(to_world[2]));
   glm::dvec3 const right = glm::normalize(glm::cross(forward, glm::dvec3(to_world[1])));
   camera result;
+  read_properties(d.root["cameras"][index], result);
   result.position = vec3(glm::dvec3(to_world[3]));
   result.forward = vec3(forward);
   result.right = vec3(right);

@@ -3,8 +3,9 @@
 
 #include <limits>
 
-// What the renderer understands of glTF 2.0, as data: one rule for each property. In a path, `*`
-// stands for any element of an array and `@` for the path before it that ends in `/*`.
+// What the renderer understands of glTF 2.0, as data: one rule for each property. Effects bring the
+// rules of what they read themselves. In a path, `*` stands for any element of an array and `@` for
+// the path before it that ends in `/*`.
 namespace path_tracer::gltf {
 
 enum class value_type { object, array, number, numbers, integer, index, boolean, text, anything };
@@ -162,7 +163,6 @@ inline constexpr rule rules[] = {
     object("@pbrMetallicRoughness/metallicRoughnessTexture"),
     index("@pbrMetallicRoughness/metallicRoughnessTexture/index", "/textures"),
     integer("@pbrMetallicRoughness/metallicRoughnessTexture/texCoord", 0, 65535),
-    text("@extras/shader"),
     numbers("@extras/second_color", 3, 0, 1),
     number("@extras/pattern_scale", 1e-6, 1e6),
     object("@extensions"),
@@ -175,12 +175,6 @@ inline constexpr rule rules[] = {
     object("@extensions/KHR_materials_specular"),
     number("@extensions/KHR_materials_specular/specularFactor", 0, 1),
     numbers("@extensions/KHR_materials_specular/specularColorFactor", 3, 0, 1e6),
-    object("@extensions/KHR_materials_clearcoat"),
-    number("@extensions/KHR_materials_clearcoat/clearcoatFactor", 0, 1),
-    number("@extensions/KHR_materials_clearcoat/clearcoatRoughnessFactor", 0, 1),
-    object("@extensions/KHR_materials_sheen"),
-    numbers("@extensions/KHR_materials_sheen/sheenColorFactor", 3, 0, 1),
-    number("@extensions/KHR_materials_sheen/sheenRoughnessFactor", 0, 1),
 };
 
 /// Members that an object must have.

@@ -4,6 +4,7 @@
 
 #include "gltf.hpp"
 #include "gltf_parts.hpp"
+#include "gltf_properties.hpp"
 
 namespace path_tracer {
 namespace {
@@ -84,6 +85,7 @@ scene make_scene(document& d) {
   auto const background =
       value_at(d.root["scenes"][index], "/extras/background", std::vector<double>{0, 0, 0});
   result.background = vec3(glm::dvec3(background[0], background[1], background[2]));
+  read_properties(d.root["scenes"][index], result);
   result.warnings = d.left_out.lines();
   return result;
 }

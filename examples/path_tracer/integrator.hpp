@@ -20,6 +20,7 @@
 #include "shaders.hpp"
 #include "stages.hpp"
 #include "statistics.hpp"
+#include "wave_storage.hpp"
 
 namespace path_tracer {
 
@@ -29,70 +30,30 @@ using progress_function = std::function<void(double)>;
 inline constexpr std::uint64_t small_wave = std::uint64_t{1} << 18;
 inline constexpr std::uint64_t large_wave = std::uint64_t{1} << 20;
 
-/// The first of an array of a backend.
-template <class Array>
-auto* data_of(Array& array) {
-  return thrust::raw_pointer_cast(array.data());
+/// The shader of an effect, where a set has it.
+template <class Effect, class Set>
+auto make_shader(wave_view<Set> const& w, scene_view const& s) {
+  if constexpr (Set::template has<Effect>) {
+    return surface_shader<Effect, Set>{w, s};
+  } else {
+    return deferred_shade::no_shader{};
+  }
 }
 
-/// The arrays behind a wave_view, in the memory of a backend.
-template <class Backend>
-class wave_storage {
- public:
-  wave_storage(Backend const& backend, std::size_t paths)
-      : vectors_(backend.template make_array<vec3>(7 * paths)),
-        pdf_(backend.template make_array<float>(paths)),
-        primitive_(backend.template make_array<std::uint32_t>(paths)),
-        barycentric_(backend.template make_array<vec2>(paths)),
-        id_(backend.template make_array<std::uint8_t>(paths)) {}
-
-  wave_view view() {
-    std::size_t const n = id_.size();
-    vec3* const v = data_of(vectors_);
-    wave_view w{};
-    w.origin = v;
-    w.direction = v + n;
-    w.throughput = v + 2 * n;
-    w.radiance = v + 3 * n;
-    w.shadow_origin = v + 4 * n;
-    w.shadow_vector = v + 5 * n;
-    w.shadow_light = v + 6 * n;
-    w.pdf = data_of(pdf_);
-    w.primitive = data_of(primitive_);
-    w.barycentric = data_of(barycentric_);
-    w.id = data_of(id_);
-    return w;
-  }
-
- private:
-  template <class T>
-  using array = decltype(std::declval<Backend const&>().template make_array<T>(0));
-
-  array<vec3> vectors_;
-  array<float> pdf_;
-  array<std::uint32_t> primitive_;
-  array<vec2> barycentric_;
-  array<std::uint8_t> id_;
-};
-
-/// The table that `enum shader` numbers.
-inline auto make_shaders(wave_view const& w, scene_view const& s) {
-  return deferred_shade::shader_table{surface_shader<shader::matte>{w, s},
-                                      surface_shader<shader::metal>{w, s},
-                                      surface_shader<shader::plastic>{w, s},
-                                      surface_shader<shader::smooth_glass>{w, s},
-                                      surface_shader<shader::rough_glass>{w, s},
-                                      surface_shader<shader::clearcoat>{w, s},
-                                      surface_shader<shader::sheen>{w, s},
-                                      surface_shader<shader::marble>{w, s},
-                                      surface_shader<shader::wood>{w, s},
-                                      surface_shader<shader::emitter>{w, s},
-                                      miss_shader{w, s}};
+/// The table that `enum shader` numbers, of the shaders that a set of effects has.
+template <class Set, int... Numbers>
+auto make_shaders(wave_view<Set> const& w, scene_view const& s,
+                  std::integer_sequence<int, Numbers...>) {
+  return deferred_shade::shader_table{make_shader<effect_at<Numbers>>(w, s)..., miss_shader{w, s}};
+}
+template <class Set>
+auto make_shaders(wave_view<Set> const& w, scene_view const& s) {
+  return make_shaders(w, s, std::make_integer_sequence<int, shader_count - 1>());
 }
 
 /// A wavefront path tracer on one backend: every stage runs over all paths of a wave, and the one
 /// that diverges, shading, goes through the library.
-template <class Backend>
+template <class Backend, class Set>
 class integrator {
  public:
   integrator(Backend const& backend, scene_view const& scene, render_settings const& settings)
@@ -110,8 +71,8 @@ class integrator {
     std::uint64_t const pixels = std::uint64_t{settings_.width} * settings_.height;
     std::uint64_t const items = pixels * settings_.samples;
     std::uint64_t const wave_size = glm::min(items, glm::clamp(pixels, small_wave, large_wave));
-    wave_storage storage(backend_, wave_size);
-    wave_view wave = storage.view();
+    wave_storage<Backend, Set> storage(backend_, wave_size);
+    wave_view<Set> wave = storage.view();
     wave.seed = settings_.seed;
     wave.pixels = static_cast<std::uint32_t>(pixels);
     wave.max_depth = settings_.max_depth;
@@ -159,15 +120,15 @@ class integrator {
   /// Runs the schedule over paths that are all finished, for no time to count what a first launch
   /// takes: the start of threads, or the way of the kernels to the device.
   template <class Schedule>
-  void warm_up(Schedule const& schedule, wave_view const& wave, std::uint32_t paths) {
+  void warm_up(Schedule const& schedule, wave_view<Set> const& wave, std::uint32_t paths) {
     thrust::fill_n(exec_, wave.id, paths, finished);
     timed_shade(schedule, paths, wave.id, uniform_table(empty_shader{}), group_time_);
     timed_shade(schedule, paths, wave.id, make_shaders(wave, scene_), total_time_);
   }
 
   template <class Schedule>
-  void trace_wave(Schedule const& schedule, wave_view wave, std::uint32_t paths) {
-    for_all(paths, generate_paths{wave, scene_.view, settings_.width, settings_.height});
+  void trace_wave(Schedule const& schedule, wave_view<Set> wave, std::uint32_t paths) {
+    for_all(paths, generate_paths<Set>{wave, scene_.view, settings_.width, settings_.height});
     ray_count rays{paths, 0};
     for (wave.bounce = 0; rays.extended > 0 && wave.bounce != wave.max_depth; ++wave.bounce) {
       for_all(paths, find_hits{wave, scene_});
@@ -220,15 +181,34 @@ bool with_schedule(std::string_view name, Function const& f) {
 }
 
 /// Renders a scene in the memory of `backend` by the schedule that the settings name.
-template <class Backend>
-render_result integrate(Backend const& backend, scene_view const& scene,
-                        render_settings const& settings, progress_function const& progress) {
+template <class Set, class Backend>
+render_result integrate_with(Backend const& backend, scene_view const& scene,
+                             render_settings const& settings, progress_function const& progress) {
   render_result result;
   bool const known = with_schedule(settings.schedule, [&](auto const& schedule) {
-    result = integrator<Backend>{backend, scene, settings}.run(schedule, progress);
+    result = integrator<Backend, Set>{backend, scene, settings}.run(schedule, progress);
   });
   if (!known) throw std::invalid_argument("unknown schedule \"" + settings.schedule + "\"");
   return result;
+}
+
+/// The same with the code that settings.variant names.
+template <class Backend, class... Sets>
+render_result integrate(Backend const& backend, scene_view const& scene,
+                        render_settings const& settings, progress_function const& progress,
+                        effect_list<Sets...>) {
+  render_result result;
+  std::size_t number = 0;
+  bool const declared =
+      ((settings.variant == number++ &&
+        (result = integrate_with<set_of<Sets>>(backend, scene, settings, progress), true)) ||
+       ...);
+  return declared ? result : integrate_with<every_effect>(backend, scene, settings, progress);
+}
+template <class Backend>
+render_result integrate(Backend const& backend, scene_view const& scene,
+                        render_settings const& settings, progress_function const& progress) {
+  return integrate(backend, scene, settings, progress, declared_sets{});
 }
 
 // One per backend, each in a file of its own.

@@ -47,7 +47,7 @@ light_list::light_list(scene const& s) {
       upper = glm::max(upper, p);
     }
     material const& m = s.materials[t.material];
-    double const w = m.kind == shader::emitter ? double{radiosity(m)} * area(t) : 0;
+    double const w = m.kind == shader_of<effects::emitters> ? double{radiosity(m)} * area(t) : 0;
     if (!(w > 0)) continue;
     entries_.push_back({1, 0, 0, i});
     power.push_back(w);

@@ -93,20 +93,9 @@ PT_HD inline light_sample sample_punctual(punctual_light const& light, vec3 p, f
   return s;
 }
 
-/// A direction from `p` to a light: `pick` chooses the light, `place` the point on it.
-PT_HD inline light_sample sample_light(light_view const& lights, triangle const* triangles,
-                                       material const* materials, vec3 p, vec2 pick, vec2 place) {
-  auto slot = static_cast<std::uint32_t>(pick.x * static_cast<float>(lights.count));
-  slot = slot < lights.count ? slot : lights.count - 1;
-  if (pick.y >= lights.entries[slot].keep) slot = lights.entries[slot].alias;
-  light_entry const entry = lights.entries[slot];
-  if (slot >= lights.triangle_count) {
-    light_sample s = sample_punctual(lights.punctual[entry.index], p, lights.far_away);
-    s.pdf = entry.probability;
-    return s;
-  }
-  triangle const& t = triangles[entry.index];
-  material const& m = materials[t.material];
+/// A direction from `p` to a point of an emissive triangle.
+PT_HD inline light_sample sample_emitter(light_view const& lights, triangle const& t,
+                                         material const& m, vec3 p, vec2 place) {
   float const root = std::sqrt(place.x);
   float const b1 = root * (1 - place.y), b2 = root * place.y;
   vec3 const e1 = t.position[1] - t.position[0], e2 = t.position[2] - t.position[0];
@@ -126,6 +115,26 @@ PT_HD inline light_sample sample_light(light_view const& lights, triangle const*
   s.radiance = m.emission;
   s.pdf = light_pdf(lights, m, d2, cos_light);
   return s;
+}
+
+/// A direction from `p` to a light of the kinds that `Set` has: `pick` chooses the light, `place`
+/// the point on it.
+template <class Set>
+PT_HD light_sample sample_light(light_view const& lights, triangle const* triangles,
+                                material const* materials, vec3 p, vec2 pick, vec2 place) {
+  auto slot = static_cast<std::uint32_t>(pick.x * static_cast<float>(lights.count));
+  slot = slot < lights.count ? slot : lights.count - 1;
+  if (pick.y >= lights.entries[slot].keep) slot = lights.entries[slot].alias;
+  light_entry const entry = lights.entries[slot];
+  if constexpr (Set::template has<effects::punctual_lights>) {
+    if (slot >= lights.triangle_count) {
+      light_sample s = sample_punctual(lights.punctual[entry.index], p, lights.far_away);
+      s.pdf = entry.probability;
+      return s;
+    }
+  }
+  triangle const& t = triangles[entry.index];
+  return sample_emitter(lights, t, materials[t.material], p, place);
 }
 
 /// The power heuristic (Veach 1997, section 9.2) of a strategy of density `a` against one of `b`.

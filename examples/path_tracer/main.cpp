@@ -12,6 +12,7 @@
 #include "output_file.hpp"
 #include "progress.hpp"
 #include "report.hpp"
+#include "scene_effects.hpp"
 
 namespace {
 
@@ -60,11 +61,22 @@ void print_summary(options const& o, std::vector<run> const& runs) {
             << duration(runs.front().result.seconds) << "\n";
 }
 
-void run_all(options const& o) {
+/// The scene with the effects that the options leave it; the settings get the code for them.
+scene load(options& o) {
+  scene s = load_gltf(o.scene);
+  if (o.effects == "all") return s;
+  if (o.effects != "auto") leave_out_others(s, effects_named(o.effects));
+  o.settings.variant = variant_for(called_for(s));
+  return s;
+}
+
+void run_all(options o) {
   check_outputs(o);
-  scene const s = load_gltf(o.scene);
+  scene const s = load(o);
   if (!o.quiet)
     for (std::string const& warning : s.warnings) complain("warning: " + warning);
+
+  if (o.explain) std::cout << explain(s, o.settings.variant) << std::flush;
 
   bool const all = o.settings.schedule == "all";
   std::vector<run> runs;

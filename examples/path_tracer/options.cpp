@@ -6,6 +6,7 @@
 #include <deferred_shade/version.hpp>
 
 #include "image.hpp"
+#include "scene_effects.hpp"
 
 namespace path_tracer {
 namespace {
@@ -30,6 +31,19 @@ CLI::Validator one_of(std::vector<std::string> const& names) {
   auto const check = [names](std::string& value) -> std::string {
     if (std::find(names.begin(), names.end(), value) != names.end()) return {};
     return "there is no \"" + value + "\", only " + join(names);
+  };
+  return CLI::Validator(check, "");
+}
+
+CLI::Validator effect_list_text() {
+  auto const check = [](std::string& value) -> std::string {
+    if (value == "auto" || value == "all") return {};
+    try {
+      effects_named(value);
+      return {};
+    } catch (std::invalid_argument const& e) {
+      return e.what();
+    }
   };
   return CLI::Validator(check, "");
 }
@@ -112,6 +126,15 @@ void declare(CLI::App& app, options& o) {
            ";\nor all: render with each, compare the pictures, print a table")
       ->check(one_of(schedule_names))
       ->type_name("NAME");
+
+  app.option_defaults()->group("Effects");
+  text("--effects", o.effects,
+       "What to simulate. auto: what the scene calls for; all: the same,\n"
+       "by code for all effects; or those of a list: " +
+           join_names(effect_bits().set()))
+      ->check(effect_list_text())
+      ->type_name("LIST");
+  app.add_flag("--explain", o.explain, "Print what calls for which effect and what was left out");
 
   app.option_defaults()->group("Measurement");
   text("--report", o.report, "Write settings and measurements as JSON")->type_name("FILE");

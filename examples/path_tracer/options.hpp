@@ -18,9 +18,11 @@ struct usage_error : std::runtime_error {
 struct options {
   std::string scene;
   std::string output = "render.png";
-  render_settings settings;    ///< `schedule` may also be "all"
-  std::string report;          ///< file for the JSON report; empty: none
-  std::string heatmap_folder;  ///< empty: no heat maps
+  render_settings settings;      ///< `schedule` may also be "all"
+  std::string report;            ///< file for the JSON report; empty: none
+  std::string heatmap_folder;    ///< empty: no heat maps
+  std::string effects = "auto";  ///< or "all", or names
+  bool explain = false;
   bool quiet = false;
 };
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
+#include "effects.hpp"
 #include "math.hpp"
 #include "random.hpp"
 
@@ -11,7 +13,7 @@ namespace path_tracer {
 /// The paths of one wave, an array per field; request i of the library is path i. A wave covers the
 /// items first, first + 1, ... of the image, of which number k is sample k / pixels of the pixel
 /// k % pixels: neighbours in a wave are neighbours in the picture.
-struct wave_view {
+struct basic_wave {
   vec3* origin;      ///< the ray to trace next
   vec3* direction;   ///< a unit vector
   vec3* throughput;  ///< 0: the path is finished
@@ -37,6 +39,32 @@ struct wave_view {
   }
   PT_HD random_stream random(std::uint32_t i) const {
     return {seed, pixel(i), static_cast<std::uint32_t>((first + i) / pixels)};
+  }
+};
+
+/// What an effect makes each path remember: an array where a set has the effect and it needs one.
+template <class Effect, class Set, class = void>
+struct path_array {
+  static constexpr bool exists = false;
+};
+template <class Effect, class Set>
+struct path_array<
+    Effect, Set,
+    std::enable_if_t<Set::template has<Effect>, std::void_t<typename Effect::path_state>>> {
+  static constexpr bool exists = true;
+  typename Effect::path_state* states;
+};
+template <class Set, class Effects>
+struct path_arrays;
+template <class Set, class... Effects>
+struct path_arrays<Set, effect_list<Effects...>> : path_array<Effects, Set>... {};
+
+/// The wave of a renderer that simulates a set of effects.
+template <class Set>
+struct wave_view : basic_wave, path_arrays<Set, all_effects> {
+  template <class Effect>
+  PT_HD auto& state(std::uint32_t i) const {
+    return path_array<Effect, Set>::states[i];
   }
 };
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "integrator.hpp"
+#include "scene_effects.hpp"
 
 namespace path_tracer {
 namespace {
@@ -35,6 +36,10 @@ void check(scene const& s, render_settings const& settings) {
   for (triangle const& t : s.triangles)
     if (t.material >= s.materials.size())
       throw std::invalid_argument("a triangle names a material that the scene does not have");
+  if (effect_bits const missing = called_for(s) & ~effects_of_variant(settings.variant);
+      missing.any())
+    throw std::invalid_argument("the variant has no code for " + join_names(missing) +
+                                ", which the scene calls for");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -19,7 +20,10 @@ struct render_settings {
   std::string backend = "omp";     ///< one of backends()
   std::string schedule = "local";  ///< one of schedules()
   unsigned threads = 0;            ///< of the CPU; 0: as many as it has
-  bool statistics = false;         ///< fill bounce::efficiency and bounce::group_efficiency
+  /// Which code runs: number of a declared set of effects, which has all that the scene calls for,
+  /// see variant_for; any larger number stands for all effects.
+  std::size_t variant = ~std::size_t{0};
+  bool statistics = false;  ///< fill bounce::efficiency and bounce::group_efficiency
 };
 
 /// What one bounce took, summed over all waves of the image.

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "scene_effects.hpp"
+
 namespace path_tracer {
 namespace {
 
@@ -94,7 +96,9 @@ std::string json_report(options const& o, std::size_t triangle_count,
                          {"max_depth", s.max_depth},
                          {"seed", s.seed},
                          {"backend", s.backend},
-                         {"threads", s.threads}}},
+                         {"threads", s.threads},
+                         {"effects", o.effects},
+                         {"code_for", join_names(effects_of_variant(s.variant))}}},
                        {"schedules", schedules}};
   // A name that is not UTF-8 is written with replacement characters.
   return report.dump(2, ' ', false, json::error_handler_t::replace) + "\n";

@@ -5,34 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "effects.hpp"
 #include "math.hpp"
 
 namespace path_tracer {
 
-/// The shaders of the path tracer; the value is the shader's position in the table.
-enum class shader : std::uint8_t {
-  matte,         ///< Lambertian reflection
-  metal,         ///< GGX conductor
-  plastic,       ///< rough dielectric layer over a diffuse base (metallic-roughness, metallic < 1)
-  smooth_glass,  ///< dielectric interface, roughness 0
-  rough_glass,   ///< GGX dielectric interface
-  clearcoat,     ///< dielectric coat over plastic or metal
-  sheen,         ///< sheen lobe over plastic
-  marble,        ///< matte, colour from turbulence
-  wood,          ///< plastic, colour from rings of gradient noise
-  emitter,       ///< emissive surface, matte below the emission
-  miss           ///< the ray left the scene
-};
-inline constexpr int shader_count = 11;
-
 /// The id of a finished path: outside the table, so the library leaves the request alone.
 inline constexpr std::uint8_t finished = 255;
 
-inline constexpr std::int32_t no_texture = -1;
-
 /// A surface in the terms of glTF 2.0; colours are linear.
-struct material {
-  shader kind = shader::matte;
+struct basic_material {
+  shader kind = shader_of<effects::matte>;
   vec3 base_color{0.8f};
   float metallic = 0;
   float roughness = 1;  ///< perceptual; alpha = roughness^2
@@ -40,19 +23,12 @@ struct material {
   float transmission = 0;
   float specular = 1;  ///< KHR_materials_specular
   vec3 specular_color{1};
-  float clearcoat = 0;
-  float clearcoat_roughness = 0;
-  vec3 sheen_color{0};
-  float sheen_roughness = 0;
-  vec3 emission{0};        ///< radiance: emissiveFactor * emissiveStrength
-  bool two_sided = false;  ///< emits from both sides; every surface is visible from both
-  std::int32_t base_color_texture = no_texture;
-  std::int32_t metallic_roughness_texture = no_texture;
-  std::int32_t normal_texture = no_texture;
-  float normal_scale = 1;
+  vec3 emission{0};         ///< radiance: emissiveFactor * emissiveStrength
+  bool two_sided = false;   ///< emits from both sides; every surface is visible from both
   vec3 second_color{0};     ///< procedural shaders: the vein or the dark ring
   float pattern_scale = 1;  ///< procedural shaders: cycles per unit of world space length
 };
+struct material : basic_material, material_parts<all_effects> {};
 
 /// One triangle: positions, shading normals and texture coordinates of its corners, world space.
 struct triangle {
@@ -81,17 +57,19 @@ struct punctual_light {
 };
 
 /// A pinhole camera; `right`, `up`, `forward` are orthonormal.
-struct camera {
+struct basic_camera {
   vec3 position{0};
   vec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};
   float tan_half_yfov = 0.5f;
   float ortho_height = 0;  ///< half height of an orthographic view; 0 for a perspective one
 };
+struct camera : basic_camera, camera_parts<all_effects> {};
 
 /// A scene as the loader leaves it: host memory, flat, all instances expanded.
-struct scene {
+struct scene : scene_parts<all_effects> {
   std::vector<triangle> triangles;
   std::vector<material> materials;
+  std::vector<std::string> material_names;  ///< as the file has them; may be shorter
   std::vector<texture> textures;
   std::vector<std::uint32_t> texels;  ///< RGBA8, red in the lowest byte
   std::vector<punctual_light> lights;

@@ -3,9 +3,6 @@
 
 #include <deferred_shade/types.hpp>
 
-#include "bsdf_glass.hpp"
-#include "bsdf_layers.hpp"
-#include "noise.hpp"
 #include "path.hpp"
 #include "surface.hpp"
 
@@ -14,61 +11,48 @@ namespace path_tracer {
 /// From this bounce on a path survives with a probability, and its throughput makes up for it.
 inline constexpr std::uint32_t roulette_start = 3;
 
-PT_HD inline vec3 base_color(scene_view const& scene, material const& m, surface const& s) {
-  if (m.base_color_texture == no_texture) return m.base_color;
-  return m.base_color * vec3(sample_texture(scene.textures, m.base_color_texture, s.uv));
-}
+/// What a shader knows of a hit when it makes its BSDF. `Set`: the effects that may occur.
+template <class Set>
+struct shading_point {
+  scene_view const& scene;
+  path_tracer::material const& material;
+  surface const& at;
+  vec3 color{0};  ///< base colour, its texture looked up
+  float ior = 0;  ///< 0 stands for infinity
 
-/// The parameters of a plastic with its textures looked up: roughness is in green, metallic in
-/// blue.
-PT_HD inline bsdf_plastic::parameters plastic_parameters(scene_view const& scene, material const& m,
-                                                         surface const& s, vec3 color) {
-  bsdf_plastic::parameters p{color, m.metallic, m.roughness, m.ior, m.specular, m.specular_color};
-  if (m.metallic_roughness_texture == no_texture) return p;
-  vec4 const texel = sample_texture(scene.textures, m.metallic_roughness_texture, s.uv);
-  p.roughness *= texel.y;
-  p.metallic *= texel.z;
-  return p;
-}
-
-/// The BSDF that a shader puts on a surface.
-template <shader Kind>
-PT_HD auto make_bsdf(scene_view const& scene, material const& m, surface const& s) {
-  if constexpr (Kind == shader::matte || Kind == shader::emitter) {
-    return bsdf_matte{base_color(scene, m, s)};
-  } else if constexpr (Kind == shader::marble) {
-    float const vein = marble_pattern(s.position * m.pattern_scale);
-    return bsdf_matte{glm::mix(base_color(scene, m, s), m.second_color, vein)};
-  } else {
-    vec3 color = base_color(scene, m, s);
-    if constexpr (Kind == shader::wood)
-      color = glm::mix(color, m.second_color, wood_pattern(s.position * m.pattern_scale));
-    auto const p = plastic_parameters(scene, m, s, color);
-    if constexpr (Kind == shader::metal) {
-      return bsdf_metal{{{alpha_of(p.roughness)}, color, vec3{1}}};
-    } else {
-      bsdf_plastic const plastic{p, scene.tables};
-      float const ior = m.ior > 0 ? glm::max(m.ior, 1.001f) : 0.0f;  // 0 stands for infinity
-      float const eta = s.front || ior == 0 ? ior : 1 / ior;
-      if constexpr (Kind == shader::smooth_glass)
-        return bsdf_mix<bsdf_smooth_glass, bsdf_plastic>{{color, eta}, plastic, m.transmission};
-      else if constexpr (Kind == shader::rough_glass)
-        return bsdf_mix<bsdf_rough_glass, bsdf_plastic>{
-            {color, eta, {alpha_of(p.roughness)}}, plastic, m.transmission};
-      else if constexpr (Kind == shader::clearcoat)
-        return bsdf_layered<coat_lobe, bsdf_plastic>{
-            {m.clearcoat, m.clearcoat_roughness, scene.tables}, plastic, luminance(color)};
-      else if constexpr (Kind == shader::sheen)
-        return bsdf_layered<sheen_lobe, bsdf_plastic>{
-            {m.sheen_color, m.sheen_roughness, scene.tables}, plastic, luminance(color)};
-      else
-        return plastic;
+  PT_HD shading_point(scene_view const& view, surface const& s)
+      : scene(view), material(view.materials[s.material]), at(s) {
+    color = material.base_color;
+    if constexpr (Set::template has<effects::textures>) {
+      if (material.base_color_texture != no_texture)
+        color = color * vec3(sample_texture(scene.textures, material.base_color_texture, at.uv));
     }
+    ior = material.ior;
   }
-}
+
+  /// Textures looked up: roughness is in green, metallic in blue.
+  PT_HD bsdf_plastic::parameters plastic_parameters(vec3 base) const {
+    auto const& m = material;
+    bsdf_plastic::parameters p{base, m.metallic, m.roughness, m.ior, m.specular, m.specular_color};
+    if constexpr (Set::template has<effects::textures>) {
+      if (m.metallic_roughness_texture == no_texture) return p;
+      vec4 const texel = sample_texture(scene.textures, m.metallic_roughness_texture, at.uv);
+      p.roughness *= texel.y;
+      p.metallic *= texel.z;
+    }
+    return p;
+  }
+  PT_HD bsdf_plastic plastic(vec3 base) const { return {plastic_parameters(base), scene.tables}; }
+
+  /// The refractive index of the far side over that of the near side.
+  PT_HD float eta() const {
+    float const inside = ior > 0 ? glm::max(ior, 1.001f) : 0.0f;
+    return at.front || inside == 0 ? inside : 1 / inside;
+  }
+};
 
 /// The light from a hit emitter, weighed against what a light sample at the last surface found.
-PT_HD inline void add_emission(wave_view const& wave, scene_view const& scene, std::uint32_t i,
+PT_HD inline void add_emission(basic_wave const& wave, scene_view const& scene, std::uint32_t i,
                                material const& m, surface const& s) {
   if (!s.front && !m.two_sided) return;
   float weight = 1;
@@ -81,14 +65,14 @@ PT_HD inline void add_emission(wave_view const& wave, scene_view const& scene, s
 }
 
 /// One light sample; its shadow ray and contribution go to the wave.
-template <class Bsdf>
-PT_HD void sample_lights(wave_view const& wave, scene_view const& scene, std::uint32_t i,
+template <class Set, class Bsdf>
+PT_HD void sample_lights(basic_wave const& wave, scene_view const& scene, std::uint32_t i,
                          surface const& s, Bsdf const& bsdf) {
   if (scene.lights.count == 0) return;
   random_stream const random = wave.random(i);
-  light_sample const l = sample_light(scene.lights, scene.triangles, scene.materials, s.position,
-                                      random.pair(pair_of(draw::light, wave.bounce)),
-                                      random.pair(pair_of(draw::light_point, wave.bounce)));
+  auto const l = sample_light<Set>(scene.lights, scene.triangles, scene.materials, s.position,
+                                   random.pair(pair_of(draw::light, wave.bounce)),
+                                   random.pair(pair_of(draw::light_point, wave.bounce)));
   if (!(l.pdf > 0) || max_component(l.radiance) <= 0) return;
   vec3 const wi = s.to_local(l.wi);
   if (!s.consistent(wi, l.wi)) return;
@@ -106,7 +90,8 @@ PT_HD void sample_lights(wave_view const& wave, scene_view const& scene, std::ui
 
 /// Sets the next ray of a path, or ends it.
 template <class Bsdf>
-PT_HD void extend_path(wave_view const& wave, std::uint32_t i, surface const& s, Bsdf const& bsdf) {
+PT_HD void extend_path(basic_wave const& wave, std::uint32_t i, surface const& s,
+                       Bsdf const& bsdf) {
   random_stream const random = wave.random(i);
   vec2 const u = random.pair(pair_of(draw::direction, wave.bounce));
   vec2 const v = random.pair(pair_of(draw::lobe_and_roulette, wave.bounce));
@@ -126,30 +111,38 @@ PT_HD void extend_path(wave_view const& wave, std::uint32_t i, surface const& s,
   wave.pdf[i] = b.delta ? 0.0f : b.pdf;
 }
 
-/// The shader of a surface: emission, one light sample, one BSDF sample.
-template <shader Kind>
+/// The shader of an effect: emission, one light sample, one BSDF sample.
+template <class Effect, class Set>
 struct surface_shader {
-  wave_view wave;
+  wave_view<Set> wave;
   scene_view scene;
 
   PT_HD void operator()(deferred_shade::request_index i) const {
     surface const s =
-        load_surface(scene, wave.primitive[i], wave.barycentric[i], wave.direction[i]);
-    material const& m = scene.materials[s.material];
-    if constexpr (Kind == shader::emitter) add_emission(wave, scene, i, m, s);
+        load_surface<Set>(scene, wave.primitive[i], wave.barycentric[i], wave.direction[i]);
+    if constexpr (std::is_same_v<Effect, effects::emitters>)
+      add_emission(wave, scene, i, scene.materials[s.material], s);
     if (wave.bounce + 1 >= wave.max_depth) {
       wave.throughput[i] = vec3{0};
       return;
     }
-    auto const bsdf = make_bsdf<Kind>(scene, m, s);
-    sample_lights(wave, scene, i, s, bsdf);
+    shading_point<Set> point(scene, s);
+    if constexpr (effects::is_glass_shader<Effect>) {
+      for_each_effect(all_effects{}, [&](auto effect) {
+        using type = decltype(effect);
+        if constexpr (Set::template has<type> && detail::changes_glass<type>)
+          type::at_glass(wave, i, point);
+      });
+    }
+    auto const bsdf = Effect::bsdf(point);
+    if constexpr (has_lights<Set>) sample_lights<Set>(wave, scene, i, s, bsdf);
     extend_path(wave, i, s, bsdf);
   }
 };
 
 /// The shader of a ray that left the scene.
 struct miss_shader {
-  wave_view wave;
+  basic_wave wave;
   scene_view scene;
 
   PT_HD void operator()(deferred_shade::request_index i) const {

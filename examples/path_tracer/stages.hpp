@@ -19,8 +19,9 @@ PT_HD inline vec2 half_extent(camera const& view, float aspect) {
 }
 
 /// Starts the paths of a wave: camera rays through random points of their pixels.
+template <class Set>
 struct generate_paths {
-  wave_view wave;
+  wave_view<Set> wave;
   camera view;
   std::uint32_t width, height;
 
@@ -33,8 +34,17 @@ struct generate_paths {
     float const y = (1 - (static_cast<float>(pixel / width) + jitter.y) * 2 / h) * half.y;
     vec3 const aside = x * view.right + y * view.up;
     bool const parallel = view.ortho_height > 0;
-    wave.origin[i] = parallel ? view.position + aside : view.position;
-    wave.direction[i] = parallel ? view.forward : glm::normalize(view.forward + aside);
+    ray r{parallel ? view.position + aside : view.position,
+          parallel ? view.forward : glm::normalize(view.forward + aside), INFINITY};
+    for_each_effect(all_effects{}, [&](auto effect) {
+      using type = decltype(effect);
+      if constexpr (Set::template has<type>) {
+        if constexpr (detail::changes_camera_rays<type>) type::camera_ray(view, wave.random(i), r);
+        if constexpr (path_array<type, Set>::exists) wave.template state<type>(i) = {};
+      }
+    });
+    wave.origin[i] = r.origin;
+    wave.direction[i] = r.direction;
     wave.throughput[i] = vec3{1};
     wave.radiance[i] = vec3{0};
     wave.pdf[i] = 0;
@@ -43,7 +53,7 @@ struct generate_paths {
 
 /// Finds what each ray hits, and with it the shader to run.
 struct find_hits {
-  wave_view wave;
+  basic_wave wave;
   scene_view scene;
 
   PT_HD void operator()(request_index i) const {
@@ -56,7 +66,7 @@ struct find_hits {
     wave.primitive[i] = h.primitive;
     wave.barycentric[i] = h.barycentric;
     shader const kind = h.primitive == no_primitive
-                            ? shader::miss
+                            ? miss
                             : scene.materials[scene.triangles[h.primitive].material].kind;
     wave.id[i] = static_cast<std::uint8_t>(kind);
   }
@@ -64,7 +74,7 @@ struct find_hits {
 
 /// Traces the shadow rays and adds the light that arrives.
 struct trace_shadows {
-  wave_view wave;
+  basic_wave wave;
   bvh_view bvh;
 
   PT_HD void operator()(request_index i) const {
@@ -86,7 +96,7 @@ struct ray_count {
 
 /// Both counts of a path in one number, so that one reduction finds them.
 struct count_rays {
-  wave_view wave;
+  basic_wave wave;
 
   PT_HD std::uint64_t operator()(request_index i) const {
     std::uint64_t const extended = wave.throughput[i] == vec3{0} ? 0 : 1;
@@ -104,7 +114,7 @@ PT_HD inline bool is_finite(vec3 c) {
 /// double, so that the picture does not depend on the size of a wave. Leaves out samples that are
 /// not finite. Runs over the pixels of the wave, at most one per path.
 struct accumulate_samples {
-  wave_view wave;
+  basic_wave wave;
   std::uint32_t paths;
   glm::dvec3* sums;
 
@@ -117,7 +127,7 @@ struct accumulate_samples {
 
 /// 1 for a sample that accumulate_samples leaves out.
 struct count_discarded {
-  wave_view wave;
+  basic_wave wave;
 
   PT_HD std::uint64_t operator()(request_index i) const {
     return is_finite(wave.radiance[i]) ? 0 : 1;

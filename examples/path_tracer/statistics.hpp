@@ -66,7 +66,7 @@ std::vector<deferred_shade::request_index> execution_order(Schedule const& sched
 /// first.
 template <class Schedule>
 void measure_efficiency(Schedule const& schedule, std::vector<std::uint8_t> const& wave_ids,
-                        wave_view const& wave, bounce& b) {
+                        basic_wave const& wave, bounce& b) {
   auto const order =
       execution_order(schedule, static_cast<std::uint32_t>(wave_ids.size()), wave_ids.data());
   std::vector<std::uint8_t> ids(order.size());

@@ -106,8 +106,9 @@ PT_HD inline vec3 mapped_normal(scene_view const& scene, triangle const& t, mate
   return glm::dot(bent, bent) > 0 ? glm::normalize(bent) : n;
 }
 
-PT_HD inline surface load_surface(scene_view const& scene, std::uint32_t primitive, vec2 b,
-                                  vec3 direction) {
+template <class Set>
+PT_HD surface load_surface(scene_view const& scene, std::uint32_t primitive, vec2 b,
+                           vec3 direction) {
   triangle const& t = scene.triangles[primitive];
   float const b0 = 1 - b.x - b.y;
   surface s;
@@ -118,8 +119,10 @@ PT_HD inline surface load_surface(scene_view const& scene, std::uint32_t primiti
   s.front = glm::dot(s.geometric, direction) < 0;
   vec3 n = b0 * t.normal[0] + b.x * t.normal[1] + b.y * t.normal[2];
   n = glm::dot(n, n) > 0 ? glm::normalize(n) : s.geometric;
-  material const& m = scene.materials[t.material];
-  if (m.normal_texture != no_texture) n = mapped_normal(scene, t, m, s.uv, n);
+  if constexpr (Set::template has<effects::normal_maps>) {
+    material const& m = scene.materials[t.material];
+    if (m.normal_texture != no_texture) n = mapped_normal(scene, t, m, s.uv, n);
+  }
   if (!s.front) {
     s.geometric = -s.geometric;
     n = -n;

@@ -9,6 +9,7 @@
 #include "bsdf_glass.hpp"
 #include "bsdf_layers.hpp"
 #include "catch.hpp"
+#include "effects.hpp"
 #include "random.hpp"
 
 namespace path_tracer {

@@ -46,26 +46,26 @@ TEST_CASE("a material runs the shader that fits it") {
       R"(, "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 0.5}})";
   std::string const sheen =
       R"(, "extensions": {"KHR_materials_sheen": {"sheenColorFactor": [0, 0.5, 0]}})";
-  CHECK(kind("0", "1", "") == shader::plastic);
-  CHECK(kind("0.5", "1", "") == shader::plastic);
-  CHECK(kind("0.5", "1", specular0) == shader::plastic);
-  CHECK(kind("0", "1", specular0) == shader::matte);
-  CHECK(kind("1", "0.3", "") == shader::metal);
-  CHECK(kind("1", "0.3", specular0) == shader::metal);
-  CHECK(kind("0", "0", glass) == shader::smooth_glass);
-  CHECK(kind("0", "0.02", glass) == shader::smooth_glass);
-  CHECK(kind("0", "0.03", glass) == shader::rough_glass);
-  CHECK(kind("1", "0.3", glass) == shader::metal);
-  CHECK(kind("0.6", "0.5", coat) == shader::clearcoat);
-  CHECK(kind("0", "0.5", sheen) == shader::sheen);
-  CHECK(kind("0", "0.5", R"(, "emissiveFactor": [0, 0, 0.1])") == shader::emitter);
-  CHECK(kind("0", "0.5", R"(, "extras": {"shader": "wood"})") == shader::wood);
-  CHECK(kind("1", "0.5", R"(, "extras": {"shader": "marble"})") == shader::marble);
+  CHECK(kind("0", "1", "") == shader_of<effects::plastic>);
+  CHECK(kind("0.5", "1", "") == shader_of<effects::plastic>);
+  CHECK(kind("0.5", "1", specular0) == shader_of<effects::plastic>);
+  CHECK(kind("0", "1", specular0) == shader_of<effects::matte>);
+  CHECK(kind("1", "0.3", "") == shader_of<effects::metal>);
+  CHECK(kind("1", "0.3", specular0) == shader_of<effects::metal>);
+  CHECK(kind("0", "0", glass) == shader_of<effects::smooth_glass>);
+  CHECK(kind("0", "0.02", glass) == shader_of<effects::smooth_glass>);
+  CHECK(kind("0", "0.03", glass) == shader_of<effects::rough_glass>);
+  CHECK(kind("1", "0.3", glass) == shader_of<effects::metal>);
+  CHECK(kind("0.6", "0.5", coat) == shader_of<effects::clearcoat>);
+  CHECK(kind("0", "0.5", sheen) == shader_of<effects::sheen>);
+  CHECK(kind("0", "0.5", R"(, "emissiveFactor": [0, 0, 0.1])") == shader_of<effects::emitters>);
+  CHECK(kind("0", "0.5", R"(, "extras": {"shader": "wood"})") == shader_of<effects::wood>);
+  CHECK(kind("1", "0.5", R"(, "extras": {"shader": "marble"})") == shader_of<effects::marble>);
 }
 
 TEST_CASE("a textured metal is left to the shader that mixes") {
   CHECK(load_material(R"({"pbrMetallicRoughness": {"metallicRoughnessTexture": {"index": 0}}})")
-            .kind == shader::plastic);
+            .kind == shader_of<effects::plastic>);
 }
 
 TEST_CASE("factors of a material") {
@@ -104,7 +104,7 @@ TEST_CASE("a primitive without a material has the default one") {
   f.at("/meshes/0/primitives/0").erase("material");
   scene const s = load(f);
   REQUIRE(s.triangles[0].material == 1);
-  CHECK(s.materials.at(1).kind == shader::metal);
+  CHECK(s.materials.at(1).kind == shader_of<effects::metal>);
   CHECK(s.materials.at(1).base_color == vec3(1));
   CHECK(s.materials.at(1).roughness == 1);
 }

@@ -20,7 +20,7 @@ scene scene_of(std::vector<quad> const& quads, std::vector<vec3> const& emission
   scene s;
   for (vec3 const e : emissions) {
     material m;
-    m.kind = shader::emitter;
+    m.kind = shader_of<effects::emitters>;
     m.emission = e;
     s.materials.push_back(m);
   }
@@ -38,8 +38,8 @@ scene scene_of(std::vector<quad> const& quads, std::vector<vec3> const& emission
 
 light_sample draw(scene const& s, light_list const& lights, vec3 p, std::uint32_t i) {
   random_stream const random(11, i, 0);
-  return sample_light(lights.view(s.lights.data()), s.triangles.data(), s.materials.data(), p,
-                      random.pair(0), random.pair(1));
+  return sample_light<every_effect>(lights.view(s.lights.data()), s.triangles.data(),
+                                    s.materials.data(), p, random.pair(0), random.pair(1));
 }
 
 /// The irradiance at `p` on a surface of normal `n` by light samples alone, without shadows.

@@ -26,10 +26,11 @@ TEST_CASE("the room shows every shader", "[render]") {
   for (std::uint32_t k = 0; k < shader_count; ++k) {
     // Without this material, the picture is another one.
     scene changed = s;
-    if (k == static_cast<std::uint32_t>(shader::miss))
+    if (k == static_cast<std::uint32_t>(miss))
       changed.background = vec3{5};
     else
-      changed.materials[k].kind = k == 0 ? shader::metal : shader::matte;
+      changed.materials[k].kind =
+          k == number_of<effects::matte> ? shader_of<effects::metal> : shader_of<effects::matte>;
     CAPTURE(k);
     CHECK_FALSE(same_bits(render(s, settings), render(changed, settings)));
   }
@@ -38,7 +39,7 @@ TEST_CASE("the room shows every shader", "[render]") {
 TEST_CASE("the camera looks down its axis, with up on top and right on the right", "[render]") {
   scene s;
   s.materials.resize(1);
-  s.materials[0].kind = shader::emitter;
+  s.materials[0].kind = shader_of<effects::emitters>;
   s.materials[0].emission = vec3{1};
   s.materials[0].two_sided = true;
   auto const at = [&](vec3 corner, float ortho_height, unsigned x, unsigned y) {

@@ -11,7 +11,7 @@ TEST_CASE("a furnace has the radiance of its closed form", "[render]") {
   // Walls that emit E and reflect a share a: everywhere E (1 + a + a^2 + ...), cut at the depth.
   double const e = 0.7, a = 0.6;
   material wall;
-  wall.kind = shader::emitter;
+  wall.kind = shader_of<effects::emitters>;
   wall.emission = vec3{static_cast<float>(e)};
   wall.base_color = vec3{static_cast<float>(a)};
   scene const s = box_of(wall);
@@ -30,19 +30,20 @@ TEST_CASE("a white object vanishes in an even sky", "[render]") {
   scene s;
   s.background = vec3{0.5f};
   s.view.position = {0.3f, 0.4f, 4};
-  auto const kind = GENERATE(shader::matte, shader::smooth_glass, shader::rough_glass,
-                             shader::plastic, shader::marble);
+  auto const kind = GENERATE(shader_of<effects::matte>, shader_of<effects::smooth_glass>,
+                             shader_of<effects::rough_glass>, shader_of<effects::plastic>,
+                             shader_of<effects::marble>);
   CAPTURE(static_cast<int>(kind));
   material m;
   m.kind = kind;
   m.base_color = m.second_color = vec3{1};
-  m.roughness = kind == shader::rough_glass ? 0.2f : 0.4f;
+  m.roughness = kind == shader_of<effects::rough_glass> ? 0.2f : 0.4f;
   m.transmission = 1;
   s.materials = {m};
   add_box(s, {0, 0, 0}, vec3{1}, 0, false);
   // Long paths: light that glass holds by total reflection gets out at last, or is lost.
   glm::dvec2 const mean = mean_and_error(render(s, small(64, 400, machine)));
-  double const lost = kind == shader::rough_glass ? 0.02 : 1e-3;
+  double const lost = kind == shader_of<effects::rough_glass> ? 0.02 : 1e-3;
   CHECK(mean.x < 0.5 + mean.y + 5e-4);
   CHECK(mean.x > 0.5 - mean.y - lost);
 }
@@ -109,7 +110,7 @@ TEST_CASE("light and BSDF samples of an area light agree with the form factor", 
   scene s;
   s.materials.resize(2);
   s.materials[0].base_color = vec3{0.8f};
-  s.materials[1].kind = shader::emitter;
+  s.materials[1].kind = shader_of<effects::emitters>;
   s.materials[1].emission = vec3{5};
   s.materials[1].base_color = vec3{0};
   add_quad(s, {-50, -50, 0}, {100, 0, 0}, {0, 100, 0}, 0);
@@ -128,14 +129,14 @@ TEST_CASE("a mirror shows the lamp as bright as it is, and glass dims it by Fres
   CAPTURE(machine);
   scene s;
   s.materials.resize(2);
-  s.materials[1].kind = shader::emitter;
+  s.materials[1].kind = shader_of<effects::emitters>;
   s.materials[1].emission = vec3{3};
   s.materials[1].base_color = vec3{0};
   s.view.position = {0, 0, 1};
   s.view.tan_half_yfov = 1e-3f;
   add_quad(s, {-5, -5, 0}, {10, 0, 0}, {0, 10, 0}, 0);
   SECTION("mirror") {
-    s.materials[0].kind = shader::metal;
+    s.materials[0].kind = shader_of<effects::metal>;
     s.materials[0].base_color = {0.9f, 0.8f, 0.7f};
     s.materials[0].roughness = 0;
     add_quad(s, {-50, -50, 3}, {0, 100, 0}, {100, 0, 0}, 1);
@@ -143,7 +144,7 @@ TEST_CASE("a mirror shows the lamp as bright as it is, and glass dims it by Fres
     CHECK_THAT(mean.x, WithinAbs(3 * 0.8, 5e-3));
   }
   SECTION("glass") {
-    s.materials[0].kind = shader::smooth_glass;
+    s.materials[0].kind = shader_of<effects::smooth_glass>;
     s.materials[0].transmission = 1;
     s.materials[0].base_color = vec3{0.5f};
     add_quad(s, {-50, -50, -3}, {100, 0, 0}, {0, 100, 0}, 1);

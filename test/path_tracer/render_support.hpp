@@ -49,6 +49,12 @@ inline scene box_of(material const& m) {
   return s;
 }
 
+/// The material of room() that runs the shader of an effect.
+template <class Effect>
+material& of_shader(scene& s) {
+  return s.materials[number_of<Effect>];
+}
+
 /// A room with an object of each kind, a lamp, a hole to the sky and all three punctual lights.
 inline scene room() {
   scene s;
@@ -63,12 +69,12 @@ inline scene room() {
     m.clearcoat_roughness = 0.1f;
     m.sheen_color = {0.5f, 0.6f, 0.7f};
     m.sheen_roughness = 0.5f;
-    m.transmission = k == 4 ? 0.8f : 1;
+    m.transmission = m.kind == shader_of<effects::rough_glass> ? 0.8f : 1;
     m.second_color = {0.1f, 0.05f, 0};
     m.pattern_scale = 3;
   }
-  s.materials[1].metallic = 1;
-  s.materials[9].emission = {9, 8, 7};
+  of_shader<effects::metal>(s).metallic = 1;
+  of_shader<effects::emitters>(s).emission = {9, 8, 7};
   // A texture of 2 x 2, for colour, for roughness and metal, and for normals.
   s.texels = {0xff2040ffu, 0xff80ff20u, 0xffff8040u, 0xffc0c0c0u, 0xffff8080u, 0xffe06070u};
   s.textures.resize(2);
@@ -77,17 +83,18 @@ inline scene room() {
   s.textures[1].width = 2;
   s.textures[1].height = 1;
   s.textures[1].offset = 4;
-  s.materials[0].base_color_texture = 0;
-  s.materials[2].metallic_roughness_texture = 1;
-  s.materials[2].normal_texture = 1;
-  add_box(s, {0, 0, 0}, {3, 2, 3}, 0, true);
+  of_shader<effects::matte>(s).base_color_texture = 0;
+  of_shader<effects::plastic>(s).metallic_roughness_texture = 1;
+  of_shader<effects::plastic>(s).normal_texture = 1;
+  add_box(s, {0, 0, 0}, {3, 2, 3}, number_of<effects::matte>, true);
   s.triangles.resize(s.triangles.size() - 2);  // open at the front
-  for (int k = 1; k < 9; ++k) {
-    float const x = -2.1f + 0.6f * static_cast<float>(k - 1), z = k % 2 == 0 ? 0.2f : -0.2f;
-    add_box(s, {x, -1 + 0.15f * static_cast<float>(k % 3), z}, vec3{0.24f},
-            static_cast<std::uint32_t>(k), false);
+  int place = 0;
+  for (std::uint32_t k = 0; k + 1 < shader_count; ++k) {
+    if (k == number_of<effects::matte> || k == number_of<effects::emitters>) continue;
+    float const x = -2.1f + 0.6f * static_cast<float>(place), z = place % 2 == 0 ? -0.2f : 0.2f;
+    add_box(s, {x, -1 + 0.15f * static_cast<float>(place++ % 3), z}, vec3{0.24f}, k, false);
   }
-  add_quad(s, {-0.5f, 1.9f, -0.5f}, {1, 0, 0}, {0, 0, 1}, 9);
+  add_quad(s, {-0.5f, 1.9f, -0.5f}, {1, 0, 0}, {0, 0, 1}, number_of<effects::emitters>);
   for (int k = 0; k < 3; ++k) {
     punctual_light light;
     light.kind = static_cast<punctual_light::type>(k);

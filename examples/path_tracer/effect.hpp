@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "math.hpp"
+
+namespace path_tracer {
+
+// An effect is a struct in a file of its own under effects/, with a line in the list of
+// effects.hpp. It has
+//   static constexpr char const* name                  for --effects and --explain
+// and of the following what it needs; what it leaves out costs nothing:
+//   struct material_part, camera_part, scene_part      what it adds to a material, the camera, ...
+//   ..._properties                                     ... and where glTF has that
+//   static bool fits(material)                         of a shader: whether it is this material's
+//   static auto bsdf(point)                            makes it a shader, which gives this BSDF
+//   static void prepare(material&)                     what is computed once per material
+//   static bool in_material, in_camera, in_scene       of what is no shader: who calls for it
+//   static void leave_out(scene&)                      takes away what is not in its parts
+//   using path_state                                   what a path remembers, zero at first
+//   static void camera_ray(camera, random, ray&)       changes a ray from the camera
+//   static void at_glass(wave, i, point&)              changes a hit on glass
+// Arguments are templates, because an effect comes before the material that it is a part of. A
+// part as it is constructed means that there is no such effect.
+
+inline constexpr std::int32_t no_texture = -1;
+
+/// From this share of metal on, a material is a conductor.
+inline constexpr float metal_from = 0.99f;
+
+/// A property of glTF: a path below a material, a camera or a scene, `extras` among it, and the
+/// member of `Part` that takes its value. A number or colour has a range.
+template <class Part>
+struct property {
+  char const* path;
+  float Part::*number = nullptr;
+  vec3 Part::*color = nullptr;
+  bool Part::*flag = nullptr;
+  double low = 0, high = 0;
+  char const* word = nullptr;  ///< the text that sets the flag
+};
+
+template <class Part>
+constexpr property<Part> number_property(char const* path, float Part::*member, double low,
+                                         double high) {
+  return {path, member, nullptr, nullptr, low, high, nullptr};
+}
+template <class Part>
+constexpr property<Part> color_property(char const* path, vec3 Part::*member, double low,
+                                        double high) {
+  return {path, nullptr, member, nullptr, low, high, nullptr};
+}
+template <class Part>
+constexpr property<Part> word_property(char const* path, char const* word, bool Part::*member) {
+  return {path, nullptr, nullptr, member, 0, 0, word};
+}
+
+}  // namespace path_tracer

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "../effect.hpp"
+
+namespace path_tracer::effects {
+
+/// Point, spot and directional lights (KHR_lights_punctual), by next-event estimation.
+struct punctual_lights {
+  static constexpr char const* name = "punctual-lights";
+
+  template <class Scene>
+  static bool in_scene(Scene const& s) {
+    return !s.lights.empty();
+  }
+  template <class Scene>
+  static void leave_out(Scene& s) {
+    s.lights.clear();
+  }
+};
+
+}  // namespace path_tracer::effects

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <thrust/memory.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "path.hpp"
+
+namespace path_tracer {
+
+/// The first of an array of a backend.
+template <class Array>
+auto* data_of(Array& array) {
+  return thrust::raw_pointer_cast(array.data());
+}
+
+template <class Backend, class T>
+using array_of = decltype(std::declval<Backend const&>().template make_array<T>(0));
+
+/// The array behind a path_array, where there is one.
+template <class Backend, class Effect, class Set, bool Exists = path_array<Effect, Set>::exists>
+struct path_array_storage {
+  path_array_storage(Backend const&, std::size_t) {}
+  void set(wave_view<Set>&) {}
+};
+template <class Backend, class Effect, class Set>
+struct path_array_storage<Backend, Effect, Set, true> {
+  using state = typename Effect::path_state;
+  array_of<Backend, state> states;
+
+  path_array_storage(Backend const& backend, std::size_t paths)
+      : states(backend.template make_array<state>(paths)) {}
+  void set(wave_view<Set>& wave) {
+    static_cast<path_array<Effect, Set>&>(wave).states = data_of(states);
+  }
+};
+
+template <class Backend, class Set, class Effects>
+struct path_array_storages;
+template <class Backend, class Set, class... Effects>
+struct path_array_storages<Backend, Set, effect_list<Effects...>>
+    : path_array_storage<Backend, Effects, Set>... {
+  path_array_storages(Backend const& backend, std::size_t paths)
+      : path_array_storage<Backend, Effects, Set>(backend, paths)... {}
+  void set(wave_view<Set>& wave) { (path_array_storage<Backend, Effects, Set>::set(wave), ...); }
+};
+
+/// The arrays behind a wave_view, in the memory of a backend.
+template <class Backend, class Set>
+class wave_storage {
+ public:
+  wave_storage(Backend const& backend, std::size_t paths)
+      : vectors_(backend.template make_array<vec3>(7 * paths)),
+        pdf_(backend.template make_array<float>(paths)),
+        primitive_(backend.template make_array<std::uint32_t>(paths)),
+        barycentric_(backend.template make_array<vec2>(paths)),
+        id_(backend.template make_array<std::uint8_t>(paths)),
+        of_effects_(backend, paths) {}
+
+  wave_view<Set> view() {
+    std::size_t const n = id_.size();
+    vec3* const v = data_of(vectors_);
+    wave_view<Set> w{};
+    w.origin = v;
+    w.direction = v + n;
+    w.throughput = v + 2 * n;
+    w.radiance = v + 3 * n;
+    w.shadow_origin = v + 4 * n;
+    w.shadow_vector = v + 5 * n;
+    w.shadow_light = v + 6 * n;
+    w.pdf = data_of(pdf_);
+    w.primitive = data_of(primitive_);
+    w.barycentric = data_of(barycentric_);
+    w.id = data_of(id_);
+    of_effects_.set(w);
+    return w;
+  }
+
+ private:
+  array_of<Backend, vec3> vectors_;
+  array_of<Backend, float> pdf_;
+  array_of<Backend, std::uint32_t> primitive_;
+  array_of<Backend, vec2> barycentric_;
+  array_of<Backend, std::uint8_t> id_;
+  path_array_storages<Backend, Set, all_effects> of_effects_;
+};
+
+}  // namespace path_tracer
