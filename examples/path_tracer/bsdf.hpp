@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <type_traits>
+
 #include "albedo.hpp"
 #include "math.hpp"
 #include "microfacet.hpp"
@@ -54,9 +56,10 @@ struct bsdf_matte {
   }
 };
 
-/// A reflecting GGX lobe with Schlick's Fresnel term.
-struct specular_lobe {
-  ggx distribution;
+/// A reflecting microfacet lobe with Schlick's Fresnel term.
+template <class Distribution>
+struct basic_specular_lobe {
+  Distribution distribution;
   vec3 f0, f90;
 
   PT_HD bsdf_value value(vec3 wo, vec3 wi) const {
@@ -71,6 +74,7 @@ struct specular_lobe {
     return 2 * glm::dot(wo, m) * m - wo;
   }
 };
+using specular_lobe = basic_specular_lobe<ggx>;
 
 /// A conductor: F0 is the colour, as glTF has it.
 struct bsdf_metal {
@@ -82,62 +86,118 @@ struct bsdf_metal {
   }
 };
 
-/// The metallic-roughness material of glTF with KHR_materials_specular and _ior: a specular lobe,
-/// and below it a diffuse base that gets what the lobe does not reflect. Where glTF suggests
-/// 1 - F(wo.m) for that share, which adds energy at grazing angles, this takes the reciprocal form
-/// of Kelemen and Szirmay-Kalos (2001), (1 - E(wo)) (1 - E(wi)) / (1 - mean of E), where E is the
-/// share that the dielectric lobe reflects.
-class bsdf_plastic {
- public:
-  struct parameters {
-    vec3 color{0.8f};
-    float metallic = 0, roughness = 1, ior = 1.5f, specular = 1;
-    vec3 specular_color{1};
-  };
+/// The parameters of glTF's metallic-roughness material, with KHR_materials_specular and _ior.
+struct plastic_parameters {
+  vec3 color{0.8f};
+  float metallic = 0, roughness = 1, ior = 1.5f, specular = 1;
+  vec3 specular_color{1};
+};
 
-  PT_HD bsdf_plastic(parameters const& p, albedo_tables const* tables) {
-    vec3 const f0 = glm::min(dielectric_f0(p.ior) * p.specular_color, vec3{1}) * p.specular;
-    lobe_.distribution.alpha = alpha_of(p.roughness);
-    lobe_.f0 = glm::mix(f0, p.color, p.metallic);
-    lobe_.f90 = vec3{glm::mix(p.specular, 1.0f, p.metallic)};
-    diffuse_ = p.color * (1 - p.metallic);
-    tables_ = tables;
-    roughness_ = p.roughness;
-    f0_ = max_component(f0);
-    f90_ = p.specular;
-    float const mean = dot(tables->ggx_mean(p.roughness), {f0_, f90_});
+/// The terms that follow from them.
+struct plastic_terms {
+  specular_lobe lobe;
+  vec3 diffuse;
+  float roughness;
+  float f0, f90;   ///< with these, Schlick's term of the dielectric is nowhere below the lobe's
+  float guess_f0;  ///< of lobe and metal, for the choice of what to sample
+  float guess_f90;
+
+  PT_HD explicit plastic_terms(plastic_parameters const& p) {
+    vec3 const dielectric = glm::min(dielectric_f0(p.ior) * p.specular_color, vec3{1}) * p.specular;
+    lobe.distribution.alpha = alpha_of(p.roughness);
+    lobe.f0 = glm::mix(dielectric, p.color, p.metallic);
+    lobe.f90 = vec3{glm::mix(p.specular, 1.0f, p.metallic)};
+    diffuse = p.color * (1 - p.metallic);
+    roughness = p.roughness;
+    f0 = max_component(dielectric);
+    f90 = p.specular;
+    guess_f0 = luminance(lobe.f0);
+    guess_f90 = lobe.f90.x;
+  }
+};
+
+template <class Lobe, class = void>
+inline constexpr bool has_roughness_from = false;
+template <class Lobe>
+inline constexpr bool has_roughness_from<Lobe, std::void_t<decltype(&Lobe::roughness_from)>> = true;
+
+/// A specular lobe, and below it a diffuse base that gets what the lobe does not reflect. Where
+/// glTF suggests 1 - F(wo.m) for that share, which adds energy at grazing angles, this takes the
+/// reciprocal form of Kelemen and Szirmay-Kalos (2001), (1 - E(wo)) (1 - E(wi)) / (1 - mean of E),
+/// where E is the share that the dielectric lobe reflects.
+template <class Lobe>
+class basic_plastic {
+ public:
+  PT_HD basic_plastic(Lobe const& lobe, plastic_terms const& terms, albedo_tables const* tables)
+      : lobe_(lobe),
+        diffuse_(terms.diffuse),
+        tables_(tables),
+        roughness_(terms.roughness),
+        f_{terms.f0, terms.f90},
+        guess_{terms.guess_f0, terms.guess_f90} {
+    float const mean = mean_reflected(lobe);
     scale_ = mean < 1 ? 1 / (1 - mean) : 0.0f;
   }
 
   PT_HD bsdf_value value(vec3 wo, vec3 wi) const {
     if (wi.z <= 0) return {};
-    vec2 const e = tables_->ggx(wo.z, roughness_);
-    float const below = 1 - dot(e, {f0_, f90_});
+    vec2 const e = reflected(wo);
+    float const below = 1 - dot(e, f_);
     float const p = specular_share(e, below);
     bsdf_value v = p > 0 ? lobe_.value(wo, wi) : bsdf_value{};
-    float const diffuse = below * (1 - dot(tables_->ggx(wi.z, roughness_), {f0_, f90_})) * scale_;
+    float const diffuse = below * (1 - dot(reflected(wi), f_)) * scale_;
     v.f_cos += diffuse_ * (diffuse * (wi.z / pi));
     v.pdf = p * v.pdf + (1 - p) * (wi.z / pi);
     return v;
   }
 
   PT_HD bsdf_sample sample(vec3 wo, vec3 u) const {
-    vec2 const e = tables_->ggx(wo.z, roughness_);
-    bool const specular = choose(specular_share(e, 1 - dot(e, {f0_, f90_})), u.z);
+    vec2 const e = reflected(wo);
+    bool const specular = choose(specular_share(e, 1 - dot(e, f_)), u.z);
     return sample_towards(*this, wo, specular ? lobe_.direction(wo, u) : sample_cosine({u.x, u.y}));
   }
 
  private:
   PT_HD static float dot(vec2 a, vec2 b) { return a.x * b.x + a.y * b.y; }
+  /// The share of light that the lobe reflects, in multiples of F0 and F90. A lobe that is not
+  /// isotropic says which roughness looks the same from `w`, and between which two that lies.
+  PT_HD vec2 reflected(vec3 w) const {
+    if constexpr (has_roughness_from<Lobe>) {
+      return tables_->ggx(w.z, lobe_.roughness_from(w));
+    } else {
+      return tables_->ggx(w.z, roughness_);
+    }
+  }
+  PT_HD float mean_reflected(Lobe const& lobe) const {
+    if constexpr (has_roughness_from<Lobe>) {
+      return glm::min(dot(tables_->ggx_mean(lobe.least_roughness()), f_),
+                      dot(tables_->ggx_mean(lobe.most_roughness()), f_));
+    } else {
+      return dot(tables_->ggx_mean(roughness_), f_);
+    }
+  }
   PT_HD float specular_share(vec2 e, float below) const {
-    float const s = dot(e, {luminance(lobe_.f0), lobe_.f90.x});
+    float const s = dot(e, guess_);
     return s > 0 ? s / (s + luminance(diffuse_) * below) : 0.0f;
   }
 
-  specular_lobe lobe_;
+  Lobe lobe_;
   vec3 diffuse_;
   albedo_tables const* tables_;
-  float roughness_, f0_, f90_, scale_;
+  float roughness_, scale_;
+  vec2 f_, guess_;
+};
+
+/// The metallic-roughness material itself.
+struct bsdf_plastic : basic_plastic<specular_lobe> {
+  using parameters = plastic_parameters;
+
+  PT_HD bsdf_plastic(parameters const& p, albedo_tables const* tables)
+      : bsdf_plastic(plastic_terms(p), tables) {}
+
+ private:
+  PT_HD bsdf_plastic(plastic_terms const& terms, albedo_tables const* tables)
+      : basic_plastic(terms.lobe, terms, tables) {}
 };
 
 }  // namespace path_tracer

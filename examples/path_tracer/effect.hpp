@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "math.hpp"
 
@@ -17,6 +18,7 @@ namespace path_tracer {
 //   static auto bsdf(point)                            makes it a shader, which gives this BSDF
 //   static void prepare(material&)                     what is computed once per material
 //   static bool in_material, in_camera, in_scene       of what is no shader: who calls for it
+//   static void load(scene&, folder)                   reads other files, beside that of the scene
 //   static void leave_out(scene&)                      takes away what is not in its parts
 //   using path_state                                   what a path remembers, zero at first
 //   static void camera_ray(camera, random, ray&)       changes a ray from the camera
@@ -39,6 +41,7 @@ struct property {
   bool Part::*flag = nullptr;
   double low = 0, high = 0;
   char const* word = nullptr;  ///< the text that sets the flag
+  std::string Part::*text = nullptr;
 };
 
 template <class Part>
@@ -54,6 +57,10 @@ constexpr property<Part> color_property(char const* path, vec3 Part::*member, do
 template <class Part>
 constexpr property<Part> word_property(char const* path, char const* word, bool Part::*member) {
   return {path, nullptr, nullptr, member, 0, 0, word};
+}
+template <class Part>
+constexpr property<Part> text_property(char const* path, std::string Part::*member) {
+  return {path, nullptr, nullptr, nullptr, 0, 0, nullptr, member};
 }
 
 }  // namespace path_tracer

@@ -7,9 +7,14 @@
 #include <tuple>
 #include <type_traits>
 
+#include "effects/absorption.hpp"
+#include "effects/anisotropy.hpp"
 #include "effects/clearcoat.hpp"
+#include "effects/dispersion.hpp"
 #include "effects/emitters.hpp"
+#include "effects/environment.hpp"
 #include "effects/glass.hpp"
+#include "effects/iridescence.hpp"
 #include "effects/marble.hpp"
 #include "effects/opaque.hpp"
 #include "effects/punctual_lights.hpp"
@@ -23,10 +28,27 @@ template <class... Effects>
 struct effect_list {};
 
 /// All effects. Those with a shader come first: a material runs the first that fits it.
-using all_effects = effect_list<effects::emitters, effects::marble, effects::wood,
-                                effects::smooth_glass, effects::rough_glass, effects::clearcoat,
-                                effects::sheen, effects::metal, effects::matte, effects::plastic,
-                                effects::textures, effects::normal_maps, effects::punctual_lights>;
+// clang-format off
+using all_effects = effect_list<
+    effects::emitters,
+    effects::marble,
+    effects::wood,
+    effects::smooth_glass,
+    effects::rough_glass,
+    effects::clearcoat,
+    effects::sheen,
+    effects::iridescence,
+    effects::anisotropy,
+    effects::metal,
+    effects::matte,
+    effects::plastic,
+    effects::textures,
+    effects::normal_maps,
+    effects::punctual_lights,
+    effects::environment,
+    effects::absorption,
+    effects::dispersion>;
+// clang-format on
 
 /// The sets of effects that there is code for, besides the whole: a scene is rendered with the
 /// smallest that has all that it calls for. Each is compiled once per backend.
@@ -165,7 +187,8 @@ using set_of = typename detail::set_from<Declared>::type;
 /// Whether light is sampled at all.
 template <class Set>
 inline constexpr bool has_lights =
-    Set::template has<effects::emitters> || Set::template has<effects::punctual_lights>;
+    Set::template has<effects::emitters> || Set::template has<effects::punctual_lights> ||
+    Set::template has<effects::environment>;
 
 /// Calls f(effect) for every effect of a list, in order; the argument is an object without members.
 template <class Function, class... Effects>

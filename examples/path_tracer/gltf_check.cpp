@@ -54,7 +54,7 @@ bool ends_with(std::string const& s, std::string_view end) {
 
 template <class Part>
 rule rule_of(property<Part> const& p) {
-  if (p.flag != nullptr) return text(p.path);
+  if (p.flag != nullptr || p.text != nullptr) return text(p.path);
   return p.color != nullptr ? numbers(p.path, 3, p.low, p.high) : number(p.path, p.low, p.high);
 }
 

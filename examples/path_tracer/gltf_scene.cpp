@@ -90,6 +90,20 @@ scene make_scene(document& d) {
   return result;
 }
 
+template <class Effect, class = void>
+constexpr bool has_load = false;
+template <class Effect>
+constexpr bool has_load<Effect, std::void_t<decltype(&Effect::template load<scene>)>> = true;
+
+/// What effects read from files beside that of the scene.
+void load_files(std::string const& path, scene& s) {
+  auto const slash = path.rfind('/');
+  std::string const folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);
+  for_each_effect(all_effects{}, [&](auto effect) {
+    if constexpr (has_load<decltype(effect)>) decltype(effect)::load(s, folder);
+  });
+}
+
 /// Names come from the file, and messages of tinygltf may hold all of it.
 std::string one_line(std::string text) {
   constexpr std::size_t longest = 240;
@@ -106,6 +120,7 @@ scene load_gltf(std::string const& path) {
   try {
     document d = read_document(path);
     scene result = make_scene(d);
+    load_files(path, result);
     for (std::string& warning : result.warnings) warning = one_line(path + ": " + warning);
     return result;
   } catch (std::runtime_error const& e) {

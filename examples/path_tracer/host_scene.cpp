@@ -21,7 +21,7 @@ scene_view host_scene::view() const {
           source.triangles.data(),
           source.materials.data(),
           {source.textures.data(), source.texels.data(), linear.data()},
-          lights.view(source.lights.data()),
+          lights.view(source),
           &host_albedo_tables(),
           source.view,
           source.background};

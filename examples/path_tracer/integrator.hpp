@@ -44,7 +44,8 @@ auto make_shader(wave_view<Set> const& w, scene_view const& s) {
 template <class Set, int... Numbers>
 auto make_shaders(wave_view<Set> const& w, scene_view const& s,
                   std::integer_sequence<int, Numbers...>) {
-  return deferred_shade::shader_table{make_shader<effect_at<Numbers>>(w, s)..., miss_shader{w, s}};
+  return deferred_shade::shader_table{make_shader<effect_at<Numbers>>(w, s)...,
+                                      miss_shader<Set>{w, s}};
 }
 template <class Set>
 auto make_shaders(wave_view<Set> const& w, scene_view const& s) {

@@ -2,6 +2,8 @@
 #include "lights.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace path_tracer {
 namespace {
@@ -66,6 +68,11 @@ light_list::light_list(scene const& s) {
     entries_.push_back({1, 0, 0, i});
     power.push_back(w);
   }
+  sky_entry_ = static_cast<std::uint32_t>(entries_.size());
+  if (double const w = pi * radius * radius * list_sky(s); w > 0) {
+    entries_.push_back({1, 0, 0, 0});
+    power.push_back(w);
+  }
   double sum = 0;
   for (double const w : power) sum += w;
   if (entries_.empty()) return;
@@ -73,10 +80,38 @@ light_list::light_list(scene const& s) {
   build_alias_table(entries_, power, sum);
 }
 
-light_view light_list::view(punctual_light const* punctual) const {
-  return {entries_.data(), static_cast<std::uint32_t>(entries_.size()),
-          triangle_count_, punctual,
-          per_power_,      far_away_};
+double light_list::list_sky(scene const& s) {
+  environment_map const& sky = s.sky;
+  std::vector<double> power(sky.texels.size());
+  double sum = 0;
+  for (std::size_t k = 0; k < power.size(); ++k) {
+    double const row = static_cast<double>(k / sky.width) + 0.5;
+    double const sine = std::sin(double{pi} * row / static_cast<double>(sky.height));
+    power[k] = double{luminance(sky.texels[k])} * double{s.environment_intensity} * sine;
+    sum += power[k];
+  }
+  if (!(sum > 0)) return 0;
+  for (std::uint32_t k = 0; k < power.size(); ++k) sky_entries_.push_back({1, 0, 0, k});
+  auto const texels = static_cast<double>(power.size());
+  build_alias_table(sky_entries_, std::move(power), sum);
+  return sum * 2 * double{pi} * double{pi} / texels;
+}
+
+light_view light_list::view(scene const& s) const {
+  light_view result{};
+  result.entries = entries_.data();
+  result.count = static_cast<std::uint32_t>(entries_.size());
+  result.triangle_count = triangle_count_;
+  result.sky_entry = sky_entry_;
+  result.triangles = s.triangles.data();
+  result.materials = s.materials.data();
+  result.punctual = s.lights.data();
+  result.sky = {s.sky.texels.data(), s.sky.width, s.sky.height, s.environment_intensity,
+                s.environment_rotation};
+  result.sky_entries = sky_entries_.data();
+  result.per_power = per_power_;
+  result.far_away = far_away_;
+  return result;
 }
 
 }  // namespace path_tracer

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "environment_map.hpp"
 #include "math.hpp"
 #include "scene.hpp"
 
@@ -19,14 +20,20 @@ struct light_entry {
   std::uint32_t index;  ///< of a triangle, or of a punctual light
 };
 
-/// The lights of a scene: first the emissive triangles, then the punctual lights.
+/// The lights of a scene: first the emissive triangles, then the punctual lights, then the
+/// environment, where there is one.
 struct light_view {
   light_entry const* entries;
   std::uint32_t count;
   std::uint32_t triangle_count;  ///< how many of the entries are triangles
+  std::uint32_t sky_entry;       ///< which of them is the environment; `count`: none
+  triangle const* triangles;
+  material const* materials;
   punctual_light const* punctual;
-  float per_power;  ///< probability of a light per unit of its power
-  float far_away;   ///< a distance that leaves the scene from anywhere in it
+  environment_view sky;
+  light_entry const* sky_entries;  ///< one for each of its texels
+  float per_power;                 ///< probability of a light per unit of its power
+  float far_away;                  ///< a distance that leaves the scene from anywhere in it
 };
 
 /// The lights in host memory.
@@ -35,12 +42,16 @@ class light_list {
   light_list() = default;
   /// Picks each light in proportion to the power that it gives off.
   explicit light_list(scene const& s);
-  light_view view(punctual_light const* punctual) const;
+  /// The scene is the one that it was made of.
+  light_view view(scene const& s) const;
 
  private:
-  std::vector<light_entry> entries_;
-  std::uint32_t triangle_count_ = 0;
+  std::vector<light_entry> entries_, sky_entries_;
+  std::uint32_t triangle_count_ = 0, sky_entry_ = 0;
   float per_power_ = 0, far_away_ = 0;
+
+  /// Fills sky_entries_; returns the integral of the environment's luminance over all directions.
+  double list_sky(scene const& s);
 };
 
 /// Power per unit area of an emissive surface.
@@ -117,15 +128,53 @@ PT_HD inline light_sample sample_emitter(light_view const& lights, triangle cons
   return s;
 }
 
-/// A direction from `p` to a light of the kinds that `Set` has: `pick` chooses the light, `place`
-/// the point on it.
+/// The column of an alias table that two numbers in [0, 1) pick.
+PT_HD inline std::uint32_t pick_entry(light_entry const* entries, std::uint32_t count, vec2 u) {
+  auto slot = static_cast<std::uint32_t>(u.x * static_cast<float>(count));
+  slot = slot < count ? slot : count - 1;
+  return u.y >= entries[slot].keep ? entries[slot].alias : slot;
+}
+
+/// The density per solid angle with which sample_light takes a direction of the environment, at
+/// coordinates `uv` of its picture.
+PT_HD inline float sky_pdf(light_view const& lights, vec2 uv) {
+  if (lights.sky_entry == lights.count) return 0;
+  environment_view const& sky = lights.sky;
+  auto const texels = static_cast<float>(sky.width) * static_cast<float>(sky.height);
+  float const sine = std::sin(pi * uv.y);
+  float const share = lights.entries[lights.sky_entry].probability *
+                      lights.sky_entries[sky.texel_at(uv)].probability;
+  return sine > 0 ? share * texels / (2 * pi * pi * sine) : 0.0f;
+}
+
+/// A direction from which the environment shines.
+PT_HD inline light_sample sample_sky(light_view const& lights, vec2 pick, vec2 place) {
+  environment_view const& sky = lights.sky;
+  std::uint32_t const texel = pick_entry(lights.sky_entries, sky.width * sky.height, pick);
+  vec2 const uv{(static_cast<float>(texel % sky.width) + place.x) / static_cast<float>(sky.width),
+                (static_cast<float>(texel / sky.width) + place.y) / static_cast<float>(sky.height)};
+  light_sample s;
+  s.wi = sky.direction(uv);
+  s.distance = lights.far_away;
+  s.radiance = sky.radiance(uv);
+  s.pdf = sky_pdf(lights, uv);
+  return s;
+}
+
+/// The random numbers of a light sample: which light, which point of it, and of the environment,
+/// which texel.
+struct light_draws {
+  vec2 pick, place, texel;
+};
+
+/// A direction from `p` to a light of the kinds that `Set` has.
 template <class Set>
-PT_HD light_sample sample_light(light_view const& lights, triangle const* triangles,
-                                material const* materials, vec3 p, vec2 pick, vec2 place) {
-  auto slot = static_cast<std::uint32_t>(pick.x * static_cast<float>(lights.count));
-  slot = slot < lights.count ? slot : lights.count - 1;
-  if (pick.y >= lights.entries[slot].keep) slot = lights.entries[slot].alias;
+PT_HD light_sample sample_light(light_view const& lights, vec3 p, light_draws const& u) {
+  std::uint32_t const slot = pick_entry(lights.entries, lights.count, u.pick);
   light_entry const entry = lights.entries[slot];
+  if constexpr (Set::template has<effects::environment>) {
+    if (slot == lights.sky_entry) return sample_sky(lights, u.texel, u.place);
+  }
   if constexpr (Set::template has<effects::punctual_lights>) {
     if (slot >= lights.triangle_count) {
       light_sample s = sample_punctual(lights.punctual[entry.index], p, lights.far_away);
@@ -133,8 +182,8 @@ PT_HD light_sample sample_light(light_view const& lights, triangle const* triang
       return s;
     }
   }
-  triangle const& t = triangles[entry.index];
-  return sample_emitter(lights, t, materials[t.material], p, place);
+  triangle const& t = lights.triangles[entry.index];
+  return sample_emitter(lights, t, lights.materials[t.material], p, u.place);
 }
 
 /// The power heuristic (Veach 1997, section 9.2) of a strategy of density `a` against one of `b`.

@@ -25,6 +25,10 @@ class device_scene {
     move(view_.textures.linear, s.linear.size());
     move(view_.lights.entries, view_.lights.count);
     move(view_.lights.punctual, s.source.lights.size());
+    move(view_.lights.sky.texels, s.source.sky.texels.size());
+    move(view_.lights.sky_entries, s.source.sky.texels.size());
+    view_.lights.triangles = view_.triangles;
+    view_.lights.materials = view_.materials;
     move(view_.tables, 1);
   }
 

@@ -144,6 +144,7 @@ void choose_shader(material& m, effect_bits allowed) {
   m.kind = shader_of<effects::matte>;
   for_each([&](auto e) {
     using effect = decltype(e);
+    if constexpr (has_prepare<effect> && !detail::has_shader<effect>) effect::prepare(m);
     if constexpr (detail::has_shader<effect>) {
       if (found || !allowed[number_of<effect>] || !effect::fits(m)) return;
       found = true;

@@ -4,6 +4,7 @@
 #include <deferred_shade/types.hpp>
 
 #include "path.hpp"
+#include "path_draws.hpp"
 #include "surface.hpp"
 
 namespace path_tracer {
@@ -44,6 +45,14 @@ struct shading_point {
   }
   PT_HD bsdf_plastic plastic(vec3 base) const { return {plastic_parameters(base), scene.tables}; }
 
+  /// The direction in which the texture coordinate u grows, in the surface's frame; else its
+  /// tangent.
+  PT_HD vec2 direction_of_u() const {
+    vec3 const u = at.to_local(axes_of(scene.triangles[at.primitive]).u);
+    float const length2 = u.x * u.x + u.y * u.y;
+    return length2 > 0 && length2 < INFINITY ? vec2{u.x, u.y} / std::sqrt(length2) : vec2{1, 0};
+  }
+
   /// The refractive index of the far side over that of the near side.
   PT_HD float eta() const {
     float const inside = ior > 0 ? glm::max(ior, 1.001f) : 0.0f;
@@ -70,9 +79,11 @@ PT_HD void sample_lights(basic_wave const& wave, scene_view const& scene, std::u
                          surface const& s, Bsdf const& bsdf) {
   if (scene.lights.count == 0) return;
   random_stream const random = wave.random(i);
-  auto const l = sample_light<Set>(scene.lights, scene.triangles, scene.materials, s.position,
-                                   random.pair(pair_of(draw::light, wave.bounce)),
-                                   random.pair(pair_of(draw::light_point, wave.bounce)));
+  light_draws u{random.pair(pair_of(draw::light, wave.bounce)),
+                random.pair(pair_of(draw::light_point, wave.bounce)), vec2{0}};
+  if constexpr (Set::template has<effects::environment>)
+    u.texel = random.pair(path_draw::sky_texel + wave.bounce);
+  auto const l = sample_light<Set>(scene.lights, s.position, u);
   if (!(l.pdf > 0) || max_component(l.radiance) <= 0) return;
   vec3 const wi = s.to_local(l.wi);
   if (!s.consistent(wi, l.wi)) return;
@@ -141,12 +152,22 @@ struct surface_shader {
 };
 
 /// The shader of a ray that left the scene.
+template <class Set>
 struct miss_shader {
   basic_wave wave;
   scene_view scene;
 
   PT_HD void operator()(deferred_shade::request_index i) const {
-    wave.radiance[i] += wave.throughput[i] * scene.background;
+    vec3 radiance = scene.background;
+    if constexpr (Set::template has<effects::environment>) {
+      if (scene.lights.sky.width > 0) {
+        vec2 const uv = scene.lights.sky.coordinates(wave.direction[i]);
+        float const pdf = wave.pdf[i];
+        float const weight = pdf > 0 ? power_heuristic(pdf, sky_pdf(scene.lights, uv)) : 1.0f;
+        radiance += weight * scene.lights.sky.radiance(uv);
+      }
+    }
+    wave.radiance[i] += wave.throughput[i] * radiance;
     wave.throughput[i] = vec3{0};
   }
 };

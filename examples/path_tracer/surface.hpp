@@ -50,7 +50,7 @@ struct surface {
   vec3 tangent, up, normal;  ///< the shading frame
   vec3 wo;                   ///< towards the viewer, in that frame; wo.z > 0
   vec2 uv;
-  std::uint32_t material;
+  std::uint32_t primitive, material;
   bool front;  ///< the viewer is on the side from which the corners turn left
 
   PT_HD vec3 to_world(vec3 v) const { return v.x * tangent + v.y * up + v.z * normal; }
@@ -89,17 +89,27 @@ PT_HD inline vec3 face_viewer(vec3 n, vec3 wo) {
   return cos_o > 1e-3f ? n : glm::normalize(n + (1e-3f - cos_o) * wo);
 }
 
-/// The tangent space of glTF: x along u, y against v, for which images run downwards.
-PT_HD inline vec3 mapped_normal(scene_view const& scene, triangle const& t, material const& m,
-                                vec2 uv, vec3 n) {
+/// How the position on a triangle changes with the texture coordinates u and v, up to a positive
+/// factor; nothing where they are of no use.
+struct texture_axes {
+  vec3 u{0}, v{0};
+};
+PT_HD inline texture_axes axes_of(triangle const& t) {
   vec3 const e1 = t.position[1] - t.position[0], e2 = t.position[2] - t.position[0];
   vec2 const d1 = t.uv[1] - t.uv[0], d2 = t.uv[2] - t.uv[0];
   float const det = d1.x * d2.y - d1.y * d2.x;
-  if (det == 0) return n;
+  if (det == 0) return {};
+  return {(e1 * d2.y - e2 * d1.y) / det, (e2 * d1.x - e1 * d2.x) / det};
+}
+
+/// The tangent space of glTF: x along u, y against v, for which images run downwards.
+PT_HD inline vec3 mapped_normal(scene_view const& scene, triangle const& t, material const& m,
+                                vec2 uv, vec3 n) {
+  texture_axes const axes = axes_of(t);
+  if (axes.u == vec3{0} && axes.v == vec3{0}) return n;
   surface frame;
-  set_frame(frame, n, (e1 * d2.y - e2 * d1.y) / det);
-  vec3 const down = (e2 * d1.x - e1 * d2.x) / det;
-  float const side = glm::dot(frame.up, down) > 0 ? -1.0f : 1.0f;
+  set_frame(frame, n, axes.u);
+  float const side = glm::dot(frame.up, axes.v) > 0 ? -1.0f : 1.0f;
   vec4 const texel = sample_texture(scene.textures, m.normal_texture, uv);
   vec3 const v = (vec3(texel) * 2.0f - 1.0f) * vec3{m.normal_scale, m.normal_scale, 1};
   vec3 const bent = v.x * frame.tangent + side * v.y * frame.up + v.z * n;
@@ -114,6 +124,7 @@ PT_HD surface load_surface(scene_view const& scene, std::uint32_t primitive, vec
   surface s;
   s.position = b0 * t.position[0] + b.x * t.position[1] + b.y * t.position[2];
   s.uv = b0 * t.uv[0] + b.x * t.uv[1] + b.y * t.uv[2];
+  s.primitive = primitive;
   s.material = t.material;
   s.geometric = geometric_normal(t);
   s.front = glm::dot(s.geometric, direction) < 0;

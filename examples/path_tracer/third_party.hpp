@@ -10,6 +10,7 @@
 // glTF knows PNG and JPEG; no other decoder is there to be attacked.
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
+#define STBI_ONLY_HDR
 #define STBI_NO_STDIO
 #define STBI_MAX_DIMENSIONS 16384
 #define STBI_WRITE_NO_STDIO

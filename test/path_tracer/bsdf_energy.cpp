@@ -45,6 +45,25 @@ TEST_CASE("no surface gives back more light than it gets", "[bsdf]") {
       check("smooth glass", bsdf_smooth_glass{vec3{1}, 1.5f}, 0.9999);
       check("clearcoat", coated(r, white), 0.8);
       check("clearcoat on clearcoat's roughness", coated(0.2f, white), 0.8);
+      for (float const strength : {0.3f, 0.7f, 1.0f}) {
+        CAPTURE(strength);
+        check("brushed metal", brushed(r, strength, vec3{1}, 1), 0.25);
+        check("brushed plastic", brushed(r, strength, vec3{1}, 0), 0.9);
+      }
+      material film;
+      film.base_color = vec3{1};
+      film.roughness = r;
+      film.iridescence = 1;
+      for (float const thickness : {0.0f, 250.0f, 1000.0f}) {
+        CAPTURE(thickness);
+        film.film_thickness = thickness;
+        film.metallic = 0;
+        effects::iridescence::prepare(film);
+        check("filmed plastic", filmed(film), 0.7);
+        film.metallic = 1;
+        effects::iridescence::prepare(film);
+        check("filmed metal", filmed(film), 0.25);
+      }
       check("sheen", bsdf_layered<sheen_lobe, bsdf_plastic>{{vec3{1}, r, tables()}, white, 1}, 0.7);
     }
 }

@@ -9,8 +9,8 @@
 #include "bsdf_glass.hpp"
 #include "bsdf_layers.hpp"
 #include "catch.hpp"
-#include "effects.hpp"
 #include "random.hpp"
+#include "scene.hpp"
 
 namespace path_tracer {
 
@@ -33,6 +33,46 @@ inline bsdf_layered<sheen_lobe, bsdf_plastic> velvet(float roughness, bsdf_plast
   return {{vec3{1, 0.8f, 0.6f}, roughness, tables()}, base, 0.5f};
 }
 
+inline basic_plastic<brushed_lobe> brushed(float roughness, float anisotropy, vec3 color,
+                                           float metallic) {
+  plastic_terms const terms(plastic_parameters{color, metallic, roughness});
+  float const alpha = terms.lobe.distribution.alpha;
+  turned_ggx const turned{glm::mix(alpha, 1.0f, anisotropy * anisotropy), alpha, 0.6f, 0.8f};
+  return {brushed_lobe{{turned, terms.lobe.f0, terms.lobe.f90}}, terms, tables()};
+}
+/// What an effect asks of a shading point, without a scene.
+struct material_point {
+  path_tracer::material const& material;
+  vec3 color;
+  struct {
+    albedo_tables const* tables;
+  } scene;
+
+  explicit material_point(path_tracer::material const& m)
+      : material(m), color(m.base_color), scene{path_tracer::tables()} {}
+  path_tracer::plastic_parameters plastic_parameters(vec3 c) const {
+    return {c,
+            material.metallic,
+            material.roughness,
+            material.ior,
+            material.specular,
+            material.specular_color};
+  }
+};
+inline basic_plastic<film_lobe> filmed(material const& m) {
+  return effects::iridescence::bsdf(material_point(m));
+}
+inline material oily(float roughness, float thickness, float metallic) {
+  material m;
+  m.base_color = {1, 0.6f, 0.3f};
+  m.metallic = metallic;
+  m.roughness = roughness;
+  m.iridescence = 0.8f;
+  m.film_thickness = thickness;
+  effects::iridescence::prepare(m);
+  return m;
+}
+
 /// Calls `f(name, bsdf)` for every kind that has a density, at moderate and high roughness.
 template <class Function>
 inline void for_each_bsdf(Function const& f) {
@@ -46,6 +86,11 @@ inline void for_each_bsdf(Function const& f) {
     f("glass from inside", glass(r, 1 / 1.5f));
     f("clearcoat", coated(r, plastic(0.5f, vec3{1, 0.5f, 0.2f}, 0.3f)));
     f("sheen", velvet(r, plastic(0.8f, vec3{1, 0.5f, 0.2f})));
+    f("brushed metal", brushed(r, 0.9f, vec3{1, 0.5f, 0.2f}, 1));
+    f("brushed plastic", brushed(r, 0.7f, vec3{1, 0.5f, 0.2f}, 0));
+    material const oil = oily(r, 350, 0), oxide = oily(r, 200, 1);
+    f("oily plastic", filmed(oil));
+    f("oxidised metal", filmed(oxide));
     f("some transmission", bsdf_mix<bsdf_rough_glass, bsdf_plastic>{
                                glass(r, 1.5f), plastic(r, vec3{1, 0.5f, 0.2f}), 0.6f});
   }

@@ -179,7 +179,7 @@ TEST_CASE("names and extras of other programs pass") {
   CHECK(s.background == vec3(0.1f, 0.2f, 0.3f));
 }
 
-TEST_CASE("the scenes of the project use every shader and nothing that is left out") {
+TEST_CASE("the scenes of the project have nothing that is left out") {
   std::string const folder = PATH_TRACER_SCENES;
   scene const box = load_gltf(folder + "/box.gltf");
   CHECK(box.triangles.size() == 6 * 2 + 2 * 12);
@@ -188,14 +188,9 @@ TEST_CASE("the scenes of the project use every shader and nothing that is left o
   CHECK(gallery.warnings.empty());
   CHECK(gallery.lights.size() == 1);
   CHECK(gallery.textures.size() == 4);
-  std::set<shader> kinds;
   std::set<std::uint32_t> materials;
-  for (triangle const& t : gallery.triangles) {
-    materials.insert(t.material);
-    kinds.insert(gallery.materials[t.material].kind);
-  }
+  for (triangle const& t : gallery.triangles) materials.insert(t.material);
   CHECK(materials.size() >= 11);
-  CHECK(kinds.size() == shader_count - 1);  // all but miss
 }
 
 TEST_CASE("scenes that another program exported load") {

@@ -72,6 +72,15 @@ inline scene room() {
     m.transmission = m.kind == shader_of<effects::rough_glass> ? 0.8f : 1;
     m.second_color = {0.1f, 0.05f, 0};
     m.pattern_scale = 3;
+    m.thickness = 1;
+    m.attenuation_color = {0.9f, 0.5f, 0.2f};
+    m.attenuation_distance = 0.3f;
+    effects::absorption::prepare(m);
+    m.dispersion = 2;
+    m.iridescence = 0.9f;
+    effects::iridescence::prepare(m);
+    m.anisotropy = 0.8f;
+    m.anisotropy_rotation = 0.5f;
   }
   of_shader<effects::metal>(s).metallic = 1;
   of_shader<effects::emitters>(s).emission = {9, 8, 7};
@@ -91,7 +100,7 @@ inline scene room() {
   int place = 0;
   for (std::uint32_t k = 0; k + 1 < shader_count; ++k) {
     if (k == number_of<effects::matte> || k == number_of<effects::emitters>) continue;
-    float const x = -2.1f + 0.6f * static_cast<float>(place), z = place % 2 == 0 ? -0.2f : 0.2f;
+    float const x = -2.5f + 0.53f * static_cast<float>(place), z = place % 2 == 0 ? -0.2f : 0.2f;
     add_box(s, {x, -1 + 0.15f * static_cast<float>(place++ % 3), z}, vec3{0.24f}, k, false);
   }
   add_quad(s, {-0.5f, 1.9f, -0.5f}, {1, 0, 0}, {0, 0, 1}, number_of<effects::emitters>);
@@ -104,6 +113,7 @@ inline scene room() {
     s.lights.push_back(light);
   }
   s.background = {0.2f, 0.3f, 0.4f};
+  s.sky = {2, 2, {vec3{0}, vec3{0.1f, 0.2f, 0.3f}, vec3{1}, vec3{3, 2, 1}}};
   s.view.position = {0, 0, 5};
   return s;
 }
