@@ -16,6 +16,7 @@
 #include "effects/glass.hpp"
 #include "effects/iridescence.hpp"
 #include "effects/marble.hpp"
+#include "effects/medium.hpp"
 #include "effects/opaque.hpp"
 #include "effects/punctual_lights.hpp"
 #include "effects/sheen.hpp"
@@ -42,6 +43,7 @@ using all_effects = effect_list<
     effects::metal,
     effects::matte,
     effects::plastic,
+    effects::medium,
     effects::textures,
     effects::normal_maps,
     effects::punctual_lights,

@@ -24,7 +24,9 @@ scene_view host_scene::view() const {
           lights.view(source),
           &host_albedo_tables(),
           source.view,
-          source.background};
+          source.background,
+          {source.medium_scattering, source.medium_scattering + source.medium_absorption,
+           source.medium_anisotropy}};
 }
 
 }  // namespace path_tracer

@@ -17,6 +17,7 @@
 #include "host_backend.hpp"
 #include "host_scene.hpp"
 #include "render.hpp"
+#include "scattering.hpp"
 #include "shaders.hpp"
 #include "stages.hpp"
 #include "statistics.hpp"
@@ -132,7 +133,7 @@ class integrator {
     for_all(paths, generate_paths<Set>{wave, scene_.view, settings_.width, settings_.height});
     ray_count rays{paths, 0};
     for (wave.bounce = 0; rays.extended > 0 && wave.bounce != wave.max_depth; ++wave.bounce) {
-      for_all(paths, find_hits{wave, scene_});
+      for_all(paths, find_hits<Set>{wave, scene_});
       if (result_.bounces.size() == wave.bounce) result_.bounces.emplace_back();
       bounce& b = result_.bounces[wave.bounce];
       b.requests += rays.extended;

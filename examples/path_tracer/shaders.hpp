@@ -73,23 +73,41 @@ PT_HD inline void add_emission(basic_wave const& wave, scene_view const& scene, 
   wave.radiance[i] += wave.throughput[i] * m.emission * weight;
 }
 
-/// One light sample; its shadow ray and contribution go to the wave.
-template <class Set, class Bsdf>
-PT_HD void sample_lights(basic_wave const& wave, scene_view const& scene, std::uint32_t i,
-                         surface const& s, Bsdf const& bsdf) {
-  if (scene.lights.count == 0) return;
+/// The random numbers of the light sample of a bounce.
+template <class Set>
+PT_HD light_draws draws_of_light(basic_wave const& wave, std::uint32_t i) {
   random_stream const random = wave.random(i);
   light_draws u{random.pair(pair_of(draw::light, wave.bounce)),
                 random.pair(pair_of(draw::light_point, wave.bounce)), vec2{0}};
   if constexpr (Set::template has<effects::environment>)
     u.texel = random.pair(path_draw::sky_texel + wave.bounce);
-  auto const l = sample_light<Set>(scene.lights, s.position, u);
+  return u;
+}
+
+/// What arrives of the light of a sample, where nothing but the medium is between.
+template <class Set>
+PT_HD vec3 arriving(scene_view const& scene, light_sample const& l) {
+  if constexpr (Set::template has<effects::medium>) {
+    if (scene.medium.extinction == vec3{0}) return l.radiance;
+    bool const is_far = l.distance == scene.lights.far_away;
+    return l.radiance * scene.medium.transmittance(is_far ? endless : l.distance);
+  } else {
+    return l.radiance;
+  }
+}
+
+/// One light sample; its shadow ray and contribution go to the wave.
+template <class Set, class Bsdf>
+PT_HD void sample_lights(basic_wave const& wave, scene_view const& scene, std::uint32_t i,
+                         surface const& s, Bsdf const& bsdf) {
+  if (scene.lights.count == 0) return;
+  light_sample const l = sample_light<Set>(scene.lights, s.position, draws_of_light<Set>(wave, i));
   if (!(l.pdf > 0) || max_component(l.radiance) <= 0) return;
   vec3 const wi = s.to_local(l.wi);
   if (!s.consistent(wi, l.wi)) return;
   bsdf_value const v = bsdf.value(s.wo, wi);
   float const weight = l.delta ? 1.0f : power_heuristic(l.pdf, v.pdf);
-  vec3 const light = wave.throughput[i] * v.f_cos * l.radiance * (weight / l.pdf);
+  vec3 const light = wave.throughput[i] * v.f_cos * arriving<Set>(scene, l) * (weight / l.pdf);
   if (light == vec3{0}) return;
   vec3 const origin = s.start_towards(l.wi);
   vec3 end = s.position + l.wi * l.distance;

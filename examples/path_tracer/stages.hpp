@@ -52,8 +52,9 @@ struct generate_paths {
 };
 
 /// Finds what each ray hits, and with it the shader to run.
+template <class Set>
 struct find_hits {
-  basic_wave wave;
+  wave_view<Set> wave;
   scene_view scene;
 
   PT_HD void operator()(request_index i) const {
@@ -65,10 +66,27 @@ struct find_hits {
     hit const h = closest_hit(scene.bvh, {wave.origin[i], wave.direction[i], INFINITY});
     wave.primitive[i] = h.primitive;
     wave.barycentric[i] = h.barycentric;
-    shader const kind = h.primitive == no_primitive
-                            ? miss
-                            : scene.materials[scene.triangles[h.primitive].material].kind;
+    shader kind = h.primitive == no_primitive
+                      ? miss
+                      : scene.materials[scene.triangles[h.primitive].material].kind;
+    if constexpr (Set::template has<effects::medium>) {
+      if (scene.medium.extinction != vec3{0} && !inside_glass(i, h, kind)) {
+        if (effects::medium::scatters(wave, scene.medium, i, h.t))
+          kind = shader_of<effects::medium>;
+        if (wave.throughput[i] == vec3{0}) {
+          wave.id[i] = finished;
+          return;
+        }
+      }
+    }
     wave.id[i] = static_cast<std::uint8_t>(kind);
+  }
+
+ private:
+  PT_HD bool inside_glass(request_index i, hit const& h, shader kind) const {
+    bool const glass =
+        kind == shader_of<effects::smooth_glass> || kind == shader_of<effects::rough_glass>;
+    return glass && glm::dot(geometric_normal(scene.triangles[h.primitive]), wave.direction[i]) > 0;
   }
 };
 

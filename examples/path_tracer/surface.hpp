@@ -21,6 +21,7 @@ struct scene_view {
   albedo_tables const* tables;
   camera view;
   vec3 background;
+  medium_view medium;
 };
 
 /// A point at a distance from the plane of a triangle on the side of `normal`, far enough for a ray

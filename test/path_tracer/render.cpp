@@ -20,13 +20,18 @@ TEST_CASE("every schedule, backend and number of threads gives the same bits", "
 }
 
 TEST_CASE("the room shows every shader", "[render]") {
-  render_settings settings = small(1, 2);
+  render_settings settings = small(2, 2);
   settings.statistics = true;
-  scene s = room();
+  scene const foggy = room();
+  scene clear = foggy;
+  clear.medium_scattering = clear.medium_absorption = vec3{0};
   for (std::uint32_t k = 0; k < shader_count; ++k) {
-    // Without this material, the picture is another one.
+    // Without this material, the picture is another one. Through fog, nothing is seen of the sky.
+    scene const& s = k == number_of<effects::medium> ? foggy : clear;
     scene changed = s;
-    if (k == static_cast<std::uint32_t>(miss))
+    if (k == number_of<effects::medium>)
+      changed.medium_scattering = vec3{0};
+    else if (k == static_cast<std::uint32_t>(miss))
       changed.background = vec3{5};
     else
       changed.materials[k].kind =

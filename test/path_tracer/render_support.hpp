@@ -99,7 +99,9 @@ inline scene room() {
   s.triangles.resize(s.triangles.size() - 2);  // open at the front
   int place = 0;
   for (std::uint32_t k = 0; k + 1 < shader_count; ++k) {
-    if (k == number_of<effects::matte> || k == number_of<effects::emitters>) continue;
+    if (k == number_of<effects::matte> || k == number_of<effects::emitters> ||
+        k == number_of<effects::medium>)
+      continue;
     float const x = -2.5f + 0.53f * static_cast<float>(place), z = place % 2 == 0 ? -0.2f : 0.2f;
     add_box(s, {x, -1 + 0.15f * static_cast<float>(place++ % 3), z}, vec3{0.24f}, k, false);
   }
@@ -113,6 +115,9 @@ inline scene room() {
     s.lights.push_back(light);
   }
   s.background = {0.2f, 0.3f, 0.4f};
+  s.medium_scattering = {0.01f, 0.02f, 0.03f};
+  s.medium_absorption = {0.01f, 0.01f, 0};
+  s.medium_anisotropy = 0.3f;
   s.sky = {2, 2, {vec3{0}, vec3{0.1f, 0.2f, 0.3f}, vec3{1}, vec3{3, 2, 1}}};
   s.view.position = {0, 0, 5};
   return s;

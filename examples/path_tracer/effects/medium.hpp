@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+
+#include "../effect.hpp"
+#include "../microfacet.hpp"
+#include "../path_draws.hpp"
+
+namespace path_tracer {
+
+/// A homogeneous medium as paths see it; coefficients per unit of length.
+struct medium_view {
+  vec3 scattering{0}, extinction{0};
+  float anisotropy = 0;  ///< the mean cosine of the angle by which light is turned
+
+  PT_HD vec3 transmittance(float length) const {
+    return {std::exp(-extinction.x * length), std::exp(-extinction.y * length),
+            std::exp(-extinction.z * length)};
+  }
+};
+
+/// Longer than any path in a scene, and times any coefficient still a number.
+inline constexpr float endless = 1e30f;
+
+/// The phase function of Henyey and Greenstein (1941), per solid angle; `cosine` is 1 straight on.
+PT_HD inline float phase(float anisotropy, float cosine) {
+  float const g = anisotropy, root = std::sqrt(glm::max(1 + g * g - 2 * g * cosine, 1e-8f));
+  return (1 - g * g) / (4 * pi * root * root * root);
+}
+
+/// A cosine with that density, from a number in [0, 1).
+PT_HD inline float sample_phase(float anisotropy, float u) {
+  float const g = anisotropy;
+  if (std::fabs(g) < 1e-3f) return 1 - 2 * u;
+  float const ratio = (1 - g * g) / (1 - g + 2 * g * u);
+  return glm::clamp((1 + g * g - ratio * ratio) / (2 * g), -1.0f, 1.0f);
+}
+
+namespace effects {
+
+/// Fog: a homogeneous medium that fills all of space but the inside of glass, by `extras` of a
+/// scene. Light from infinitely far does not arrive where it takes anything away.
+struct medium {
+  static constexpr char const* name = "medium";
+  struct scene_part {
+    vec3 medium_scattering{0}, medium_absorption{0};
+    float medium_anisotropy = 0;
+  };
+  static constexpr property<scene_part> scene_properties[] = {
+      color_property("extras/medium_scattering", &scene_part::medium_scattering, 0, 1e6),
+      color_property("extras/medium_absorption", &scene_part::medium_absorption, 0, 1e6),
+      number_property("extras/medium_anisotropy", &scene_part::medium_anisotropy, -0.99, 0.99)};
+
+  /// Its shader is that of a point in the medium, not of a surface.
+  template <class Material>
+  static bool fits(Material const&) {
+    return false;
+  }
+  template <class Scene>
+  static bool in_scene(Scene const& s) {
+    return max_component(s.medium_scattering + s.medium_absorption) > 0;
+  }
+
+  /// Draws how far a path goes before it meets a particle, at most to `surface`, where it else
+  /// arrives; true in the first case. The distance is drawn for one channel at random, and the
+  /// throughput makes up for that (one-sample balance heuristic, Veach 1997).
+  template <class Wave, class View>
+  PT_HD static bool scatters(Wave const& wave, View const& m, std::uint32_t i, float surface) {
+    vec2 const u = wave.random(i).pair(path_draw::free_path + wave.bounce);
+    int const channel = glm::min(static_cast<int>(u.x * 3), 2);
+    float const coefficient = m.extinction[channel];
+    float const distance = coefficient > 0 ? -std::log(1 - u.y) / coefficient : endless;
+    bool const inside = distance < surface;
+    vec3 const left = m.transmittance(glm::min(inside ? distance : surface, endless));
+    vec3 const density = inside ? m.extinction * left : left;
+    float const mean = (density.x + density.y + density.z) / 3;
+    vec3 const carried = inside ? m.scattering * left : left;
+    wave.throughput[i] *= mean > 0 ? carried / mean : vec3{0};
+    if (inside) wave.origin[i] += distance * wave.direction[i];
+    return inside;
+  }
+};
+
+}  // namespace effects
+}  // namespace path_tracer
