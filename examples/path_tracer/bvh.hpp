@@ -124,8 +124,9 @@ class slab_ray {
 };
 
 /// The nearest hit of a ray, or with AnyHit the first one found; `primitive` tells a miss.
-template <bool AnyHit>
-PT_HD hit traverse(bvh_view const& bvh, ray const& r) {
+/// `triangles[i]` are those of the hierarchy, within the boxes of its nodes.
+template <bool AnyHit, class Triangles>
+PT_HD hit traverse(bvh_view const& bvh, Triangles const& triangles, ray const& r) {
   std::uint32_t stack[max_bvh_depth + 1];  // each level leaves one child behind at most
   float entry[max_bvh_depth + 1];          // where the ray enters it
   int size = 0;
@@ -139,7 +140,7 @@ PT_HD hit traverse(bvh_view const& bvh, ray const& r) {
       std::uint32_t const first = at & (max_bvh_triangles - 1);
       std::uint32_t const last = first + ((at >> 28) & 7u);
       for (std::uint32_t i = first; i <= last; ++i)
-        if (sheared.intersect(bvh.triangles[i], h) && AnyHit) return h;
+        if (sheared.intersect(triangles[i], h) && AnyHit) return h;
     } else {
       bvh_node const& node = bvh.nodes[at];
       float const t0 = slabs.enter(node.corner[0], h.t);
@@ -162,10 +163,12 @@ PT_HD hit traverse(bvh_view const& bvh, ray const& r) {
   }
 }
 
-PT_HD inline hit closest_hit(bvh_view const& bvh, ray const& r) { return traverse<false>(bvh, r); }
+PT_HD inline hit closest_hit(bvh_view const& bvh, ray const& r) {
+  return traverse<false>(bvh, bvh.triangles, r);
+}
 
 PT_HD inline bool any_hit(bvh_view const& bvh, ray const& r) {
-  return traverse<true>(bvh, r).primitive != no_primitive;
+  return traverse<true>(bvh, bvh.triangles, r).primitive != no_primitive;
 }
 
 }  // namespace path_tracer

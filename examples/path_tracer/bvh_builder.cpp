@@ -61,11 +61,14 @@ int levels_for(std::size_t count) {  // of a balanced tree
 
 class builder {
  public:
-  explicit builder(std::vector<triangle> const& triangles) : triangles_(triangles) {
+  builder(std::vector<triangle> const& triangles, std::vector<triangle_motion> const& motion)
+      : triangles_(triangles) {
     items_.reserve(triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
       item it;
       for (vec3 const& p : triangles[i].position) it.bounds.add(p);
+      if (!motion.empty())
+        for (vec3 const& p : motion[i].position) it.bounds.add(p);
       it.centroid = it.bounds.lower * 0.5f + it.bounds.upper * 0.5f;
       it.primitive = i;
       items_.push_back(it);
@@ -199,11 +202,11 @@ class builder {
 
 }  // namespace
 
-bvh build_bvh(std::vector<triangle> const& triangles) {
+bvh build_bvh(std::vector<triangle> const& triangles, std::vector<triangle_motion> const& motion) {
   if (triangles.size() > max_bvh_triangles)
     throw std::length_error("build_bvh: " + std::to_string(triangles.size()) +
                             " triangles, at most 2^28 are possible");
-  return builder{triangles}.run();
+  return builder{triangles, motion}.run();
 }
 
 }  // namespace path_tracer

@@ -17,6 +17,7 @@
 #include "effects/iridescence.hpp"
 #include "effects/marble.hpp"
 #include "effects/medium.hpp"
+#include "effects/motion_blur.hpp"
 #include "effects/opaque.hpp"
 #include "effects/punctual_lights.hpp"
 #include "effects/sheen.hpp"
@@ -49,7 +50,8 @@ using all_effects = effect_list<
     effects::punctual_lights,
     effects::environment,
     effects::absorption,
-    effects::dispersion>;
+    effects::dispersion,
+    effects::motion_blur>;
 // clang-format on
 
 /// The sets of effects that there is code for, besides the whole: a scene is rendered with the

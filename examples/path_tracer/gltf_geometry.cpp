@@ -5,6 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "gltf_accessor.hpp"
 #include "gltf_parts.hpp"
 
 namespace path_tracer::gltf {
@@ -15,36 +16,6 @@ constexpr double smallest = 1e-18;
 
 bool is_finite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// The bytes of an accessor, known to lie inside their buffer.
-struct elements {
-  unsigned char const* data;
-  std::size_t count, stride;
-  int component_type;
-
-  template <class T>
-  T get(std::size_t i, std::size_t component) const {
-    T value;
-    std::memcpy(&value, data + i * stride + component * sizeof(T), sizeof(T));
-    return value;
-  }
-
-  std::uint32_t unsigned_at(std::size_t i, std::size_t component) const {
-    if (component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE)
-      return get<std::uint8_t>(i, component);
-    if (component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
-      return get<std::uint16_t>(i, component);
-    return get<std::uint32_t>(i, component);
-  }
-
-  /// A float, or a normalised unsigned integer.
-  float float_at(std::size_t i, std::size_t component) const {
-    if (component_type == TINYGLTF_COMPONENT_TYPE_FLOAT) return get<float>(i, component);
-    float const largest =
-        component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ? 255.0f : 65535.0f;
-    return static_cast<float>(unsigned_at(i, component)) / largest;
-  }
-};
-
 class primitive_reader {
  public:
   primitive_reader(document& d, std::size_t mesh, std::size_t primitive)
@@ -52,13 +23,16 @@ class primitive_reader {
         primitive_(d.model.meshes[mesh].primitives[primitive]),
         where_(element(d.root, "meshes", mesh) + ", primitive " + std::to_string(primitive)) {}
 
-  void append(glm::dmat4 const& to_world, scene& out) {
+  void append(placement const& place, scene& out) {
     if (primitive_.mode < TINYGLTF_MODE_TRIANGLES)
       return document_.left_out.add(primitive_.mode == TINYGLTF_MODE_POINTS ? "points" : "lines",
                                     where_);
-    read_vertices(to_world);
+    read_vertices(place.close);
+    closing_positions_ = std::move(positions_);
+    closing_normals_ = std::move(normals_);
+    read_vertices(place.open);
     read_indices();
-    emit(glm::determinant(glm::dmat3(to_world)) < 0, out);
+    emit(glm::determinant(glm::dmat3(place.open)) < 0, out);
   }
 
  private:
@@ -69,8 +43,6 @@ class primitive_reader {
   elements open(int index, int type, std::string const& name) const {
     tinygltf::Accessor const& a = document_.model.accessors[static_cast<std::size_t>(index)];
     std::string const accessor = name + " (accessor " + std::to_string(index) + ") ";
-    if (a.sparse.isSparse) fail(accessor + "is sparse, which is not supported");
-    if (a.bufferView < 0) fail(accessor + "has no bufferView");
     if (a.type != type) fail(accessor + "has not the type that glTF asks for");
     bool const position = name == "POSITION" || name == "NORMAL";
     bool const is_float = a.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT;
@@ -82,22 +54,7 @@ class primitive_reader {
                            : is_float || (is_small && a.normalized);
     if (!valid) fail(accessor + "has a component type that glTF does not allow there");
 
-    tinygltf::BufferView const& view =
-        document_.model.bufferViews[static_cast<std::size_t>(a.bufferView)];
-    std::size_t const components = static_cast<std::size_t>(
-                          tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type))),
-                      size =
-                          components * static_cast<std::size_t>(tinygltf::GetComponentSizeInBytes(
-                                           static_cast<std::uint32_t>(a.componentType)));
-    std::size_t const stride = view.byteStride == 0 ? size : view.byteStride;
-    if (stride < size) fail(accessor + "overlaps itself: its byteStride is too small");
-    // check() bounds all three numbers to 32 bits, so that nothing here can overflow 64.
-    std::size_t const end = a.byteOffset + (a.count - 1) * stride + size;
-    if (end > view.byteLength)
-      fail(accessor + "ends at byte " + std::to_string(end) + " of a buffer view of " +
-           std::to_string(view.byteLength));
-    auto const& bytes = document_.model.buffers[static_cast<std::size_t>(view.buffer)].data;
-    return {bytes.data() + view.byteOffset + a.byteOffset, a.count, stride, a.componentType};
+    return open_accessor(document_, where_, index, name);
   }
 
   std::vector<vec3> read_vec3(std::string const& name) const {
@@ -186,6 +143,7 @@ class primitive_reader {
       corners(t, c);
       if (mirrored) std::swap(c[1], c[2]);
       triangle result{};
+      triangle_motion motion{};
       result.material = static_cast<std::uint32_t>(material);
       glm::dvec3 const p(positions_[c[0]]);
       glm::dvec3 const face =
@@ -200,24 +158,28 @@ class primitive_reader {
         vec3 const normal = normals_.empty() ? vec3(0) : normals_[c[i]];
         result.normal[i] = normal == vec3(0) ? vec3(face / length) : normal;
         result.uv[i] = uvs_.empty() ? vec2(0) : uvs_[c[i]];
+        motion.position[i] = closing_positions_[c[i]];
+        motion.normal[i] = normals_.empty() ? result.normal[i] : closing_normals_[c[i]];
       }
       out.triangles.push_back(result);
+      out.motion.push_back(motion);
     }
   }
 
   document& document_;
   tinygltf::Primitive const& primitive_;
   std::string where_;
-  std::vector<vec3> positions_, normals_;
+  std::vector<vec3> positions_, normals_;                  // when the shutter opens
+  std::vector<vec3> closing_positions_, closing_normals_;  // and when it closes
   std::vector<vec2> uvs_;
   std::vector<std::uint32_t> indices_;
 };
 
 }  // namespace
 
-void append_mesh(document& d, std::size_t mesh, glm::dmat4 const& to_world, scene& out) {
+void append_mesh(document& d, std::size_t mesh, placement const& place, scene& out) {
   for (std::size_t i = 0; i < d.model.meshes[mesh].primitives.size(); ++i)
-    primitive_reader(d, mesh, i).append(to_world, out);
+    primitive_reader(d, mesh, i).append(place, out);
 }
 
 }  // namespace path_tracer::gltf

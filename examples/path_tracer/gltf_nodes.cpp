@@ -12,7 +12,7 @@ glm::dvec3 vector(std::vector<double> const& v) { return {v[0], v[1], v[2]}; }
 
 }  // namespace
 
-glm::dmat4 local_transform(document const& d, std::size_t index) {
+glm::dmat4 local_transform(document const& d, std::size_t index, pose const& animated) {
   tinygltf::Node const& node = d.model.nodes[index];
   auto const fail = [&](char const* what) {
     throw std::runtime_error(element(d.root, "nodes", index) + ": " + what);
@@ -23,16 +23,21 @@ glm::dmat4 local_transform(document const& d, std::size_t index) {
     if (result[0][3] != 0 || result[1][3] != 0 || result[2][3] != 0 || result[3][3] != 1)
       fail("the last row of its matrix is not 0 0 0 1");
   } else {
-    if (!node.rotation.empty()) {
-      auto const& r = node.rotation;
+    auto const or_own = [](std::vector<double> const& a, std::vector<double> const& own) {
+      return a.empty() ? own : a;
+    };
+    std::vector<double> const r = or_own(animated.rotation, node.rotation),
+                              scale = or_own(animated.scale, node.scale),
+                              translation = or_own(animated.translation, node.translation);
+    if (!r.empty()) {
       glm::dquat const q(r[3], r[0], r[1], r[2]);
       double const length = glm::length(q);
       if (std::fabs(length - 1) > 0.01) fail("its rotation is not a unit quaternion");
       result = glm::mat4_cast(q / length);
     }
-    if (!node.scale.empty())
-      for (int i = 0; i < 3; ++i) result[i] *= node.scale[static_cast<std::size_t>(i)];
-    if (!node.translation.empty()) result[3] = glm::dvec4(vector(node.translation), 1);
+    if (!scale.empty())
+      for (int i = 0; i < 3; ++i) result[i] *= scale[static_cast<std::size_t>(i)];
+    if (!translation.empty()) result[3] = glm::dvec4(vector(translation), 1);
   }
   // Relative to the box that the columns span, so that a small scale is no reason.
   glm::dmat3 const linear(result);

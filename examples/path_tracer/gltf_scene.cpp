@@ -14,10 +14,12 @@ using namespace gltf;
 /// Walks the nodes of one scene in depth-first order and expands them.
 class traversal {
  public:
-  traversal(document& d, scene& out) : document_(d), scene_(out), seen_(d.model.nodes.size()) {}
+  traversal(document& d, scene& out)
+      : document_(d), scene_(out), animations_(d), seen_(d.model.nodes.size()) {}
 
   void run(std::vector<int> const& roots) {
-    push(roots, glm::dmat4(1));
+    find_shutter();
+    push(roots, {glm::dmat4(1), glm::dmat4(1)});
     while (!stack_.empty()) {
       auto const [node, to_parent] = stack_.back();
       stack_.pop_back();
@@ -25,34 +27,60 @@ class traversal {
     }
     if (!has_camera_) throw std::runtime_error("has no camera in its default scene");
     if (scene_.triangles.empty()) throw std::runtime_error("has no triangles in its default scene");
+    if (!moves_) scene_.motion.clear();
   }
 
  private:
   struct placed {
     std::size_t node;
-    glm::dmat4 to_parent;
+    placement to_parent;
   };
 
-  void push(std::vector<int> const& nodes, glm::dmat4 const& to_parent) {
+  /// The camera's shutter, which comes before the nodes that are seen through it.
+  void find_shutter() {
+    for (std::size_t k = 0; k < document_.model.cameras.size(); ++k) {
+      camera c;
+      read_properties(document_.root["cameras"][k], c);
+      if (c.shutter_close < c.shutter_open)
+        throw std::runtime_error(element(document_.root, "cameras", k) +
+                                 ": its shutter closes before it opens");
+      if (k == 0) open_ = double{c.shutter_open}, close_ = double{c.shutter_close};
+      if (double{c.shutter_open} != open_ || double{c.shutter_close} != close_)
+        document_.left_out.add("shutter that is not the first camera's",
+                               element(document_.root, "cameras", k));
+    }
+  }
+
+  void push(std::vector<int> const& nodes, placement const& to_parent) {
     for (auto n = nodes.rbegin(); n != nodes.rend(); ++n)
       stack_.push_back({static_cast<std::size_t>(*n), to_parent});
   }
 
-  void visit(std::size_t index, glm::dmat4 const& to_parent) {
+  void visit(std::size_t index, placement const& to_parent) {
     std::string const where = element(document_.root, "nodes", index);
     if (seen_[index])
       throw std::runtime_error(where + ": is reached twice, through a cycle or from two parents");
     seen_[index] = true;
     tinygltf::Node const& node = document_.model.nodes[index];
-    glm::dmat4 const to_world = to_parent * local_transform(document_, index);
-    double const determinant = glm::determinant(to_world);
-    if (!std::isfinite(determinant) || determinant == 0)
-      throw std::runtime_error(where + ": its transform to world space has the determinant " +
-                               std::to_string(determinant));
-    if (!(glm::length(glm::dvec3(to_world[3])) <= farthest))
-      throw std::runtime_error(where + ": lies more than 1e9 units from the origin");
-    if (node.mesh >= 0)
-      append_mesh(document_, static_cast<std::size_t>(node.mesh), to_world, scene_);
+    auto const to_world_at = [&](double seconds, glm::dmat4 const& parent) {
+      return parent * local_transform(document_, index, animations_.at(index, seconds));
+    };
+    placement const place{to_world_at(open_, to_parent.open), to_world_at(close_, to_parent.close)};
+    for (glm::dmat4 const& m : {place.open, place.close}) {
+      double const determinant = glm::determinant(m);
+      if (!std::isfinite(determinant) || determinant == 0)
+        throw std::runtime_error(where + ": its transform to world space has the determinant " +
+                                 std::to_string(determinant));
+      if (!(glm::length(glm::dvec3(m[3])) <= farthest))
+        throw std::runtime_error(where + ": lies more than 1e9 units from the origin");
+    }
+    glm::dmat4 const& to_world = place.open;
+    if (node.mesh >= 0) {
+      append_mesh(document_, static_cast<std::size_t>(node.mesh), place, scene_);
+      moves_ = moves_ || place.open != place.close;
+    } else if (place.open != place.close) {
+      document_.left_out.add("motion of what is no mesh", where);
+    }
     if (node.camera >= 0 && has_camera_) document_.left_out.add("further camera", where);
     if (node.camera >= 0 && !has_camera_) {
       scene_.view = make_camera(document_, static_cast<std::size_t>(node.camera), to_world);
@@ -62,11 +90,14 @@ class traversal {
         value_at(document_.root["nodes"][index], "/extensions/KHR_lights_punctual/light", -1);
     if (light >= 0)
       scene_.lights.push_back(make_light(document_, static_cast<std::size_t>(light), to_world));
-    push(node.children, to_world);
+    push(node.children, place);
   }
 
   document& document_;
   scene& scene_;
+  animations animations_;
+  double open_ = 0, close_ = 0;  // seconds
+  bool moves_ = false;
   std::vector<bool> seen_;
   std::vector<placed> stack_;
   bool has_camera_ = false;

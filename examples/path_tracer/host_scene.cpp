@@ -14,7 +14,7 @@ std::vector<float> srgb_table() {
 }  // namespace
 
 host_scene::host_scene(scene const& s)
-    : source(s), hierarchy(build_bvh(s.triangles)), lights(s), linear(srgb_table()) {}
+    : source(s), hierarchy(build_bvh(s.triangles, s.motion)), lights(s), linear(srgb_table()) {}
 
 scene_view host_scene::view() const {
   return {hierarchy.view(),
@@ -26,7 +26,8 @@ scene_view host_scene::view() const {
           source.view,
           source.background,
           {source.medium_scattering, source.medium_scattering + source.medium_absorption,
-           source.medium_anisotropy}};
+           source.medium_anisotropy},
+          source.motion.empty() ? nullptr : source.motion.data()};
 }
 
 }  // namespace path_tracer

@@ -140,7 +140,7 @@ class integrator {
       if (settings_.statistics)
         timed_shade(schedule, paths, wave.id, uniform_table(empty_shader{}), group_time_);
       timed_shade(schedule, paths, wave.id, make_shaders(wave, scene_), total_time_);
-      for_all(paths, trace_shadows{wave, scene_.bvh});
+      for_all(paths, trace_shadows<Set>{wave, scene_});
       result_.rays += rays.extended;
       rays = ray_count::unpacked(sum_over(paths, count_rays{wave}));
       result_.rays += rays.shadow;

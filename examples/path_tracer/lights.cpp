@@ -105,6 +105,7 @@ light_view light_list::view(scene const& s) const {
   result.sky_entry = sky_entry_;
   result.triangles = s.triangles.data();
   result.materials = s.materials.data();
+  result.motion = s.motion.empty() ? nullptr : s.motion.data();
   result.punctual = s.lights.data();
   result.sky = {s.sky.texels.data(), s.sky.width, s.sky.height, s.environment_intensity,
                 s.environment_rotation};

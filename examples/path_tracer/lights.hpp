@@ -7,6 +7,7 @@
 
 #include "environment_map.hpp"
 #include "math.hpp"
+#include "motion.hpp"
 #include "scene.hpp"
 
 namespace path_tracer {
@@ -29,6 +30,7 @@ struct light_view {
   std::uint32_t sky_entry;       ///< which of them is the environment; `count`: none
   triangle const* triangles;
   material const* materials;
+  triangle_motion const* motion;  ///< null: nothing moves
   punctual_light const* punctual;
   environment_view sky;
   light_entry const* sky_entries;  ///< one for each of its texels
@@ -162,9 +164,10 @@ PT_HD inline light_sample sample_sky(light_view const& lights, vec2 pick, vec2 p
 }
 
 /// The random numbers of a light sample: which light, which point of it, and of the environment,
-/// which texel.
+/// which texel; and the moment of the path.
 struct light_draws {
   vec2 pick, place, texel;
+  float time;
 };
 
 /// A direction from `p` to a light of the kinds that `Set` has.
@@ -182,8 +185,10 @@ PT_HD light_sample sample_light(light_view const& lights, vec3 p, light_draws co
       return s;
     }
   }
-  triangle const& t = lights.triangles[entry.index];
-  return sample_emitter(lights, t, lights.materials[t.material], p, u.place);
+  loaded_triangle<Set> t = load_triangle<Set>(lights.triangles, lights.motion, entry.index, u.time);
+  light_sample s = sample_emitter(lights, t, lights.materials[t.material], p, u.place);
+  s.pdf *= area_ratio<Set>(lights.triangles, lights.motion, entry.index, t);
+  return s;
 }
 
 /// The power heuristic (Veach 1997, section 9.2) of a strategy of density `a` against one of `b`.

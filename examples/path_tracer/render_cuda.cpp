@@ -27,6 +27,8 @@ class device_scene {
     move(view_.lights.punctual, s.source.lights.size());
     move(view_.lights.sky.texels, s.source.sky.texels.size());
     move(view_.lights.sky_entries, s.source.sky.texels.size());
+    if (view_.motion != nullptr) move(view_.motion, s.source.motion.size());
+    view_.lights.motion = view_.motion;
     view_.lights.triangles = view_.triangles;
     view_.lights.materials = view_.materials;
     move(view_.tables, 1);

@@ -18,11 +18,12 @@ struct shading_point {
   scene_view const& scene;
   path_tracer::material const& material;
   surface const& at;
+  triangle const& hit;
   vec3 color{0};  ///< base colour, its texture looked up
   float ior = 0;  ///< 0 stands for infinity
 
-  PT_HD shading_point(scene_view const& view, surface const& s)
-      : scene(view), material(view.materials[s.material]), at(s) {
+  PT_HD shading_point(scene_view const& view, surface const& s, triangle const& t)
+      : scene(view), material(view.materials[s.material]), at(s), hit(t) {
     color = material.base_color;
     if constexpr (Set::template has<effects::textures>) {
       if (material.base_color_texture != no_texture)
@@ -48,7 +49,7 @@ struct shading_point {
   /// The direction in which the texture coordinate u grows, in the surface's frame; else its
   /// tangent.
   PT_HD vec2 direction_of_u() const {
-    vec3 const u = at.to_local(axes_of(scene.triangles[at.primitive]).u);
+    vec3 const u = at.to_local(axes_of(hit).u);
     float const length2 = u.x * u.x + u.y * u.y;
     return length2 > 0 && length2 < INFINITY ? vec2{u.x, u.y} / std::sqrt(length2) : vec2{1, 0};
   }
@@ -62,13 +63,15 @@ struct shading_point {
 
 /// The light from a hit emitter, weighed against what a light sample at the last surface found.
 PT_HD inline void add_emission(basic_wave const& wave, scene_view const& scene, std::uint32_t i,
-                               material const& m, surface const& s) {
+                               surface const& s, float area_ratio) {
+  material const& m = scene.materials[s.material];
   if (!s.front && !m.two_sided) return;
   float weight = 1;
   if (wave.pdf[i] > 0) {
     vec3 const d = s.position - wave.origin[i];
     float const cos_light = -glm::dot(wave.direction[i], s.geometric);
-    weight = power_heuristic(wave.pdf[i], light_pdf(scene.lights, m, glm::dot(d, d), cos_light));
+    float const pdf = light_pdf(scene.lights, m, glm::dot(d, d), cos_light) * area_ratio;
+    weight = power_heuristic(wave.pdf[i], pdf);
   }
   wave.radiance[i] += wave.throughput[i] * m.emission * weight;
 }
@@ -78,7 +81,8 @@ template <class Set>
 PT_HD light_draws draws_of_light(basic_wave const& wave, std::uint32_t i) {
   random_stream const random = wave.random(i);
   light_draws u{random.pair(pair_of(draw::light, wave.bounce)),
-                random.pair(pair_of(draw::light_point, wave.bounce)), vec2{0}};
+                random.pair(pair_of(draw::light_point, wave.bounce)), vec2{0},
+                time_of<Set>(wave, i)};
   if constexpr (Set::template has<effects::environment>)
     u.texel = random.pair(path_draw::sky_texel + wave.bounce);
   return u;
@@ -147,15 +151,18 @@ struct surface_shader {
   scene_view scene;
 
   PT_HD void operator()(deferred_shade::request_index i) const {
-    surface const s =
-        load_surface<Set>(scene, wave.primitive[i], wave.barycentric[i], wave.direction[i]);
-    if constexpr (std::is_same_v<Effect, effects::emitters>)
-      add_emission(wave, scene, i, scene.materials[s.material], s);
+    loaded_triangle<Set> t =
+        load_triangle<Set>(scene.triangles, scene.motion, wave.primitive[i], time_of<Set>(wave, i));
+    surface const s = load_surface<Set>(scene, t, wave.barycentric[i], wave.direction[i]);
+    if constexpr (std::is_same_v<Effect, effects::emitters>) {
+      float const ratio = area_ratio<Set>(scene.triangles, scene.motion, wave.primitive[i], t);
+      add_emission(wave, scene, i, s, ratio);
+    }
     if (wave.bounce + 1 >= wave.max_depth) {
       wave.throughput[i] = vec3{0};
       return;
     }
-    shading_point<Set> point(scene, s);
+    shading_point<Set> point(scene, s, t);
     if constexpr (effects::is_glass_shader<Effect>) {
       for_each_effect(all_effects{}, [&](auto effect) {
         using type = decltype(effect);

@@ -63,7 +63,9 @@ struct find_hits {
       wave.id[i] = finished;
       return;
     }
-    hit const h = closest_hit(scene.bvh, {wave.origin[i], wave.direction[i], INFINITY});
+    float const time = time_of<Set>(wave, i);
+    hit const h = find_hit<Set, false>(scene.bvh, scene.motion,
+                                       {wave.origin[i], wave.direction[i], INFINITY}, time);
     wave.primitive[i] = h.primitive;
     wave.barycentric[i] = h.barycentric;
     shader kind = h.primitive == no_primitive
@@ -91,13 +93,16 @@ struct find_hits {
 };
 
 /// Traces the shadow rays and adds the light that arrives.
+template <class Set>
 struct trace_shadows {
   basic_wave wave;
-  bvh_view bvh;
+  scene_view scene;
 
   PT_HD void operator()(request_index i) const {
     if (wave.shadow_light[i] == vec3{0}) return;
-    if (!any_hit(bvh, {wave.shadow_origin[i], wave.shadow_vector[i], 1}))
+    ray const r{wave.shadow_origin[i], wave.shadow_vector[i], 1};
+    float const time = time_of<Set>(wave, i);
+    if (find_hit<Set, true>(scene.bvh, scene.motion, r, time).primitive == no_primitive)
       wave.radiance[i] += wave.shadow_light[i];
   }
 };

@@ -7,6 +7,7 @@
 #include "albedo.hpp"
 #include "bvh.hpp"
 #include "lights.hpp"
+#include "motion.hpp"
 #include "texture.hpp"
 
 namespace path_tracer {
@@ -22,6 +23,7 @@ struct scene_view {
   camera view;
   vec3 background;
   medium_view medium;
+  triangle_motion const* motion;  ///< null: nothing moves
 };
 
 /// A point at a distance from the plane of a triangle on the side of `normal`, far enough for a ray
@@ -51,7 +53,7 @@ struct surface {
   vec3 tangent, up, normal;  ///< the shading frame
   vec3 wo;                   ///< towards the viewer, in that frame; wo.z > 0
   vec2 uv;
-  std::uint32_t primitive, material;
+  std::uint32_t material;
   bool front;  ///< the viewer is on the side from which the corners turn left
 
   PT_HD vec3 to_world(vec3 v) const { return v.x * tangent + v.y * up + v.z * normal; }
@@ -118,14 +120,12 @@ PT_HD inline vec3 mapped_normal(scene_view const& scene, triangle const& t, mate
 }
 
 template <class Set>
-PT_HD surface load_surface(scene_view const& scene, std::uint32_t primitive, vec2 b,
+PT_HD surface load_surface(scene_view const& scene, loaded_triangle<Set> t, vec2 b,
                            vec3 direction) {
-  triangle const& t = scene.triangles[primitive];
   float const b0 = 1 - b.x - b.y;
   surface s;
   s.position = b0 * t.position[0] + b.x * t.position[1] + b.y * t.position[2];
   s.uv = b0 * t.uv[0] + b.x * t.uv[1] + b.y * t.uv[2];
-  s.primitive = primitive;
   s.material = t.material;
   s.geometric = geometric_normal(t);
   s.front = glm::dot(s.geometric, direction) < 0;

@@ -146,7 +146,7 @@ TEST_CASE("a full standard output is an error") {
 TEST_CASE("what a scene holds and the picture leaves out is one warning line each") {
   workplace const w;
   gltf_fixture f;
-  f.root["animations"] = json::array();
+  f.root["skins"] = json::array();
   f.root["materials"][0]["occlusionTexture"] = {{"index", 0}};
   write_bytes(w.folder / "scene.gltf", f.text());
   auto arguments = w.arguments({"-o", w.folder / "picture.png"});
@@ -155,7 +155,7 @@ TEST_CASE("what a scene holds and the picture leaves out is one warning line eac
   outcome const result = run_path_tracer(arguments);
   CHECK(result.exit_code == 0);
   CHECK(result.err.find("path_tracer: warning: ") == 0);
-  CHECK(result.err.find("\"animations\" is left out\n") != std::string::npos);
+  CHECK(result.err.find("\"skins\" is left out\n") != std::string::npos);
   CHECK(result.err.find("\"occlusionTexture\" (material 0 \"paint\") is left out\n") !=
         std::string::npos);
 }

@@ -36,10 +36,10 @@ scene scene_of(std::vector<quad> const& quads, std::vector<vec3> const& emission
   return s;
 }
 
-light_sample draw(scene const& s, light_list const& lights, vec3 p, std::uint32_t i) {
+light_sample draw_light(scene const& s, light_list const& lights, vec3 p, std::uint32_t i) {
   random_stream const random(11, i, 0);
   return sample_light<every_effect>(lights.view(s), p,
-                                    {random.pair(0), random.pair(1), random.pair(2)});
+                                    {random.pair(0), random.pair(1), random.pair(2), 0});
 }
 
 /// The irradiance at `p` on a surface of normal `n` by light samples alone, without shadows.
@@ -47,7 +47,7 @@ double irradiance(scene const& s, vec3 p, vec3 n, int count = 200000) {
   light_list const lights(s);
   double sum = 0;
   for (int i = 0; i < count; ++i) {
-    light_sample const l = draw(s, lights, p, static_cast<std::uint32_t>(i));
+    light_sample const l = draw_light(s, lights, p, static_cast<std::uint32_t>(i));
     if (l.pdf > 0) sum += double{luminance(l.radiance) * glm::max(glm::dot(l.wi, n), 0.0f) / l.pdf};
   }
   return sum / count;
@@ -104,7 +104,7 @@ TEST_CASE("a light is picked in proportion to its power, and reports that densit
   int punctual = 0, bright = 0;
   bool consistent = true;
   for (std::uint32_t i = 0; i < count; ++i) {
-    light_sample const l = draw(s, lights, {0.5f, 0.5f, 0}, i);
+    light_sample const l = draw_light(s, lights, {0.5f, 0.5f, 0}, i);
     punctual += l.delta ? 1 : 0;
     bright += l.radiance.x == 4 ? 1 : 0;
     if (l.delta) {

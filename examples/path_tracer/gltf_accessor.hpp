@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "gltf_document.hpp"
+
+namespace path_tracer::gltf {
+
+/// The bytes of an accessor, known to lie inside their buffer.
+struct elements {
+  unsigned char const* data;
+  std::size_t count, stride;
+  int component_type;
+
+  template <class T>
+  T get(std::size_t i, std::size_t component) const {
+    T value;
+    std::memcpy(&value, data + i * stride + component * sizeof(T), sizeof(T));
+    return value;
+  }
+
+  std::uint32_t unsigned_at(std::size_t i, std::size_t component) const {
+    if (component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE)
+      return get<std::uint8_t>(i, component);
+    if (component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
+      return get<std::uint16_t>(i, component);
+    return get<std::uint32_t>(i, component);
+  }
+
+  /// A float, or a normalised unsigned integer.
+  float float_at(std::size_t i, std::size_t component) const {
+    if (component_type == TINYGLTF_COMPONENT_TYPE_FLOAT) return get<float>(i, component);
+    float const largest =
+        component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ? 255.0f : 65535.0f;
+    return static_cast<float>(unsigned_at(i, component)) / largest;
+  }
+};
+
+/// The elements of accessor number `index`, which errors call `name` of the element `where`. Throws
+/// std::runtime_error where it is sparse or leaves its buffer.
+elements open_accessor(document const& d, std::string const& where, int index,
+                       std::string const& name);
+
+}  // namespace path_tracer::gltf

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <type_traits>
+
+#include "bvh.hpp"
+#include "path.hpp"
+#include "path_draws.hpp"
+#include "scene.hpp"
+
+namespace path_tracer {
+
+/// A point on its way from `open` to `close` at a time in [0, 1); rounding does not leave the box
+/// about the two.
+PT_HD inline vec3 moved(vec3 open, vec3 close, float time) {
+  return glm::clamp(open + time * (close - open), glm::min(open, close), glm::max(open, close));
+}
+
+PT_HD inline triangle triangle_at(triangle t, triangle_motion const& m, float time) {
+  for (int k = 0; k < 3; ++k) {
+    t.position[k] = moved(t.position[k], m.position[k], time);
+    t.normal[k] = t.normal[k] + time * (m.normal[k] - t.normal[k]);
+  }
+  return t;
+}
+
+/// Triangle number `primitive` at a time, where `Set` has motion blur; else as it lies in memory.
+template <class Set>
+using loaded_triangle =
+    std::conditional_t<Set::template has<effects::motion_blur>, triangle, triangle const&>;
+template <class Set>
+PT_HD loaded_triangle<Set> load_triangle(triangle const* triangles, triangle_motion const* motion,
+                                         std::uint32_t primitive, float time) {
+  if constexpr (Set::template has<effects::motion_blur>) {
+    if (motion != nullptr) return triangle_at(triangles[primitive], motion[primitive], time);
+  }
+  return triangles[primitive];
+}
+
+/// The area of a triangle as it lies in memory, over that at the moment of `t`: a light is picked
+/// by the former, and the density of its points goes by the latter.
+template <class Set>
+PT_HD float area_ratio(triangle const* triangles, triangle_motion const* motion,
+                       std::uint32_t primitive, triangle const& t) {
+  if constexpr (Set::template has<effects::motion_blur>) {
+    auto const area = [](triangle const& of) {
+      return glm::length(
+          glm::cross(of.position[1] - of.position[0], of.position[2] - of.position[0]));
+    };
+    if (motion != nullptr) return area(triangles[primitive]) / area(t);
+  }
+  return 1;
+}
+
+/// The triangles of a hierarchy at a time, for traverse.
+struct moving_triangles {
+  bvh_triangle const* triangles;
+  triangle_motion const* motion;
+  float time;
+
+  PT_HD bvh_triangle operator[](std::uint32_t i) const {
+    bvh_triangle t = triangles[i];
+    for (int k = 0; k < 3; ++k) {
+      float const(&c)[3] = t.corner[k];
+      vec3 const p = moved({c[0], c[1], c[2]}, motion[t.primitive].position[k], time);
+      for (int axis = 0; axis < 3; ++axis) t.corner[k][axis] = p[axis];
+    }
+    return t;
+  }
+};
+
+/// The moment at which a path sees the scene, in [0, 1) of the time that the shutter is open.
+template <class Set>
+PT_HD float time_of(basic_wave const& wave, std::uint32_t i) {
+  if constexpr (Set::template has<effects::motion_blur>)
+    return wave.random(i).pair(path_draw::time).x;
+  return 0;
+}
+
+/// The nearest hit, or the first, of a scene that may move; see traverse.
+template <class Set, bool AnyHit>
+PT_HD hit find_hit(bvh_view const& bvh, triangle_motion const* motion, ray const& r, float time) {
+  if constexpr (Set::template has<effects::motion_blur>) {
+    if (motion != nullptr)
+      return traverse<AnyHit>(bvh, moving_triangles{bvh.triangles, motion, time}, r);
+  }
+  return traverse<AnyHit>(bvh, bvh.triangles, r);
+}
+
+}  // namespace path_tracer
