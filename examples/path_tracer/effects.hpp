@@ -10,6 +10,7 @@
 #include "effects/absorption.hpp"
 #include "effects/anisotropy.hpp"
 #include "effects/clearcoat.hpp"
+#include "effects/depth_of_field.hpp"
 #include "effects/dispersion.hpp"
 #include "effects/emitters.hpp"
 #include "effects/environment.hpp"
@@ -51,7 +52,8 @@ using all_effects = effect_list<
     effects::environment,
     effects::absorption,
     effects::dispersion,
-    effects::motion_blur>;
+    effects::motion_blur,
+    effects::depth_of_field>;
 // clang-format on
 
 /// The sets of effects that there is code for, besides the whole: a scene is rendered with the
