@@ -140,11 +140,12 @@ inline bool same_bits(render_result const& a, render_result const& b) {
 }
 
 /// The mean over the picture, and how far it may be off (five standard errors, over the pixels).
-inline glm::dvec2 mean_and_error(render_result const& r) {
+inline glm::dvec2 mean_and_error(render_result const& r, int channel = 1) {
   double sum = 0, squares = 0;
   for (vec3 const& p : r.pixels) {
-    sum += double{p.y};
-    squares += double{p.y} * double{p.y};
+    double const v = double{p[channel]};
+    sum += v;
+    squares += v * v;
   }
   auto const n = static_cast<double>(r.pixels.size());
   double const mean = sum / n;
