@@ -129,3 +129,16 @@ TEST_CASE("only keeps ids, and makes no code for the shaders that it leaves out"
   CHECK(seen == std::vector<std::uint32_t>{3, 17, 39});
   STATIC_REQUIRE(decltype(some.only<17>())::first_id() == 17);
 }
+
+TEST_CASE("a table says which shaders may occur", "[shader_table]") {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> runs;
+  auto const all = table_of(runs, std::make_integer_sequence<std::uint32_t, 70>());
+  CHECK(all.expected().all());
+  auto const some = all.only<1, 2, 69>();
+  CHECK(some.expected() == (std::bitset<70>().set(1).set(2).set(69)));
+  auto const fewer = some.expecting(std::bitset<70>().set(2).set(3).set(69));
+  CHECK(fewer.expected() == (std::bitset<70>().set(2).set(69)));
+  CHECK(fewer.only<69, 1>().expected() == (std::bitset<70>().set(69)));
+  CHECK(some.expected().count() == 3);
+  CHECK(all.expecting({}).expected().none());
+}

@@ -83,11 +83,23 @@ light_list::light_list(scene const& s) {
 double light_list::list_sky(scene const& s) {
   environment_map const& sky = s.sky;
   std::vector<double> power(sky.texels.size());
+  // The mean of the picture over a texel, between the centres of which it is bilinear.
+  auto const mean = [&](std::size_t k) {
+    std::size_t const w = sky.width, h = sky.height, x = k % w, y = k / w;
+    std::size_t const columns[] = {(x + w - 1) % w, x, (x + 1) % w};
+    std::size_t const rows[] = {y > 0 ? y - 1 : 0, y, std::min(y + 1, h - 1)};
+    double const weights[] = {0.125, 0.75, 0.125};
+    double sum = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        sum += weights[i] * weights[j] * double{luminance(sky.texels[rows[i] * w + columns[j]])};
+    return sum;
+  };
   double sum = 0;
   for (std::size_t k = 0; k < power.size(); ++k) {
     double const row = static_cast<double>(k / sky.width) + 0.5;
     double const sine = std::sin(double{pi} * row / static_cast<double>(sky.height));
-    power[k] = double{luminance(sky.texels[k])} * double{s.environment_intensity} * sine;
+    power[k] = mean(k) * double{s.environment_intensity} * sine;
     sum += power[k];
   }
   if (!(sum > 0)) return 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bitset>
 #include <type_traits>
 #include <utility>
 
@@ -75,7 +76,7 @@ class shader_table {
       no_shader>;
 
   /// The lowest id that the table has a shader for.
-  static constexpr shader_id first_id() noexcept {
+  DEFERRED_SHADE_HOST_DEVICE static constexpr shader_id first_id() noexcept {
     constexpr bool present[] = {!std::is_same_v<Shaders, no_shader>...};
     shader_id id = 0;
     while (!present[id]) ++id;
@@ -112,6 +113,22 @@ class shader_table {
     return only_among<Ids...>(std::make_integer_sequence<shader_id, size()>());
   }
 
+  /// The same table for waves in which the shaders that are not `occurring` do not occur: what
+  /// launches one shader after another does not launch them, and requests that name them may be
+  /// left alone. For a scene that is known to have no such material. Costs no code, unlike `only`.
+  shader_table expecting(std::bitset<sizeof...(Shaders)> const& occurring) const {
+    shader_table result = *this;
+    result.absent_ = ~occurring;
+    return result;
+  }
+
+  /// The ids of shaders that may occur: all but those that `only` and `expecting` leave out.
+  std::bitset<sizeof...(Shaders)> expected() const {
+    std::bitset<sizeof...(Shaders)> result;
+    for_each([&](auto id, auto const&) { result[id] = !absent_[id]; });
+    return result;
+  }
+
   /// Calls `f(id, shader)` for every shader in order; `id` is a std::integral_constant.
   DEFERRED_SHADE_EXEC_CHECK_DISABLE
   template <class Function>
@@ -120,6 +137,9 @@ class shader_table {
   }
 
  private:
+  template <class... Others>
+  friend class shader_table;
+
   // Compilers turn the folded comparisons into one switch. The halving above it keeps the depth of
   // a fold, which clang limits to 256, apart from the size of the table.
   static constexpr shader_id leaf_size = 32;
@@ -189,8 +209,11 @@ class shader_table {
 
   template <shader_id... Ids, shader_id... All>
   constexpr auto only_among(std::integer_sequence<shader_id, All...>) const {
-    return shader_table<std::conditional_t<detail::is_among<All, Ids...>, Shaders, no_shader>...>{
-        get_if<All, detail::is_among<All, Ids...>>()...};
+    using table =
+        shader_table<std::conditional_t<detail::is_among<All, Ids...>, Shaders, no_shader>...>;
+    table result{get_if<All, detail::is_among<All, Ids...>>()...};
+    result.absent_ = absent_;
+    return result;
   }
 
   template <shader_id Id, bool Keep>
@@ -203,6 +226,7 @@ class shader_table {
   }
 
   detail::table_of<Shaders...> shaders_;
+  std::bitset<sizeof...(Shaders)> absent_;
 };
 
 template <class... Shaders>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <deferred_shade/schedule/specialized.hpp>
 
+#include <thrust/system/cpp/execution_policy.h>
+
 #include <bitset>
 #include <cstdint>
 #include <deferred_shade/deferred_shade.hpp>
@@ -8,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "../support/every_schedule.hpp"
 #include "../support/schedule_properties.hpp"
 
 namespace ds = deferred_shade;
@@ -138,4 +141,39 @@ TEMPLATE_LIST_TEST_CASE("a part of a table may be of records", "[specialized]", 
     TestType::wait();
     CHECK(test::first_difference(results, expected) == several_tiles);
   });
+}
+
+TEMPLATE_LIST_TEST_CASE("shaders that are not expected are not run, others as ever",
+                        "[specialized]", test::backends) {
+  CAPTURE(test::run_seed());
+  test::for_each_schedule([](auto const& schedule) {
+    for (auto const& occurring : {set_of({}), set_of({3}), set_of({0, 5}), set_of({1, 2, 3, 4})}) {
+      CAPTURE(occurring);
+      auto const wave = without(wave_of(several_tiles), occurring);
+      auto const ids = test::on<TestType>(wave);
+      ds::workspace scratch{TestType::policy()};
+      auto const expecting = [&](auto const& exec, auto n, auto first, auto const& table,
+                                 auto& memory) {
+        schedule(exec, n, first, table.expecting(occurring), memory);
+      };
+      test::check_against_loop<TestType, shaders>(expecting, several_tiles, ids.data(), scratch);
+    }
+  });
+}
+
+TEST_CASE("explicit serialization launches what is expected, and nothing else", "[specialized]") {
+  // Requests that name an unexpected shader show whether it was launched.
+  std::vector<std::uint8_t> const ids = {0, 1, 2, 1, 0};
+  std::vector<int> ran(ids.size());
+  auto const mark = [&ran](ds::request_index i) { ++ran[i]; };
+  ds::shader_table const table{mark, mark, mark};
+  auto const fewer = table.expecting(std::bitset<3>().set(1));
+  ds::workspace scratch{thrust::cpp::par};
+  ds::shade(thrust::cpp::par, ds::explicit_serialization{}, ids.size(), ids.data(), fewer, scratch);
+  CHECK(ran == std::vector<int>{0, 1, 0, 1, 0});
+  ds::shade(thrust::cpp::par, ds::bucket_then_dispatch<>{}, ids.size(), ids.data(), fewer, scratch);
+  CHECK(ran == std::vector<int>{0, 2, 0, 2, 0});
+  ds::shade(thrust::cpp::par, ds::compact_then_dispatch<ds::implicit_serialization>{}, ids.size(),
+            ids.data(), fewer, scratch);
+  CHECK(ran == std::vector<int>{0, 3, 0, 3, 0});
 }

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <tuple>
 #include <type_traits>
 
 #include <deferred_shade/records.hpp>
+#include <deferred_shade/shader_table.hpp>
 
 namespace deferred_shade::detail {
 
@@ -21,17 +23,37 @@ template <class T>
 inline constexpr bool is_extended_lambda = false;
 #endif
 
-/// What record shaders of one table have in common where their requests can pass through shared
-/// memory: one type of source, of sink and of result, all trivially copyable, small records, and a
-/// small table. (In a large one, a tile that fits in shared memory has too few requests of each
-/// shader to fill its rows.)
+/// The shaders of a table without those that shader_table::only has left out.
 template <class... Shaders>
-struct staging {
+struct shader_list {};
+template <class... Present, class Shader>
+shader_list<Present..., Shader> operator+(shader_list<Present...>, shader_list<Shader>);
+template <class... Present>
+shader_list<Present...> operator+(shader_list<Present...>, shader_list<no_shader>);
+template <class... Shaders>
+using present_shaders = decltype((shader_list<>{} + ... + shader_list<Shaders>{}));
+
+template <class... Shaders>
+constexpr std::uint32_t find_present_bits() {
+  bool const present[] = {!std::is_same_v<Shaders, no_shader>...};
+  std::uint32_t bits = 0;
+  for (std::size_t k = 0; k < sizeof...(Shaders); ++k) bits |= std::uint32_t{present[k]} << k;
+  return bits;
+}
+
+/// Bit k: whether the table has a shader k. For tables of at most 31.
+template <class... Shaders>
+inline constexpr std::uint32_t present_bits = find_present_bits<Shaders...>();
+
+/// What record shaders of one table have in common where their requests can pass through shared
+/// memory: one type of source, of sink and of result, all trivially copyable, and small records.
+template <class Present>
+struct common_records {
   static constexpr bool possible = false;
 };
 
 template <class Source, class Sink, class... Functions>
-struct staging<record_shader<Source, Functions, Sink>...> {
+struct common_records<shader_list<record_shader<Source, Functions, Sink>...>> {
   using source_type = Source;
   using sink_type = Sink;
   template <class Function>
@@ -44,7 +66,7 @@ struct staging<record_shader<Source, Functions, Sink>...> {
   static constexpr std::size_t slot = (std::max(sizeof(request), sizeof(result)) + 15) / 16 * 16;
 
   static constexpr bool possible =
-      !is_extended_lambda<Source> && !is_extended_lambda<Sink> && sizeof...(Functions) <= 16 &&
+      !is_extended_lambda<Source> && !is_extended_lambda<Sink> &&
       sizeof(Source) + sizeof(Sink) <= 256 && std::is_copy_assignable_v<request> &&
       std::is_copy_assignable_v<result> &&
       (std::is_same_v<result, typename shader<Functions>::result_type> && ...) &&
@@ -57,5 +79,16 @@ struct staging<record_shader<Source, Functions, Sink>...> {
   static constexpr bool copies_words =
       std::is_pointer_v<Source> && sizeof(request) == slot && alignof(request) == 16;
 };
+
+/// The same of a table, which is small: in a large one, a tile that fits in shared memory has too
+/// few requests of each shader to fill its rows.
+template <bool Small, class... Shaders>
+struct staging_if_small {
+  static constexpr bool possible = false;
+};
+template <class... Shaders>
+struct staging_if_small<true, Shaders...> : common_records<present_shaders<Shaders...>> {};
+template <class... Shaders>
+using staging = staging_if_small<sizeof...(Shaders) <= 16, Shaders...>;
 
 }  // namespace deferred_shade::detail

@@ -22,7 +22,9 @@ namespace detail {
 template <class Policy, class Ids, class... Shaders>
 void run_explicit(host_system, Policy const& exec, request_index n, Ids ids,
                   shader_table<Shaders...> const& shaders) {
+  auto const expected = shaders.expected();
   shaders.for_each([&](auto id, auto const& shader) {
+    if (!expected[id]) return;
     thrust::for_each_n(exec, thrust::counting_iterator<request_index>(0), std::size_t{n},
                        [ids, &shader](request_index i) {
                          if (shader_of(ids, i, sizeof...(Shaders)) == decltype(id)::value) {
@@ -35,7 +37,9 @@ void run_explicit(host_system, Policy const& exec, request_index n, Ids ids,
 template <class Policy, class... Shaders>
 void run_explicit(host_system, Policy const& exec, grouping group,
                   shader_table<Shaders...> const& shaders) {
+  auto const expected = shaders.expected();
   shaders.for_each([&](auto id, auto const& shader) {
+    if (!expected[id]) return;
     request_index const begin = group.offsets[id];
     request_index const end = group.offsets[id + 1];
     if (begin == end) return;
@@ -85,7 +89,8 @@ struct explicit_serialization {
   }
 
   /// The dispatch: every launch visits the segment of its shader. On CPUs, an empty one is not
-  /// launched; on CUDA the length is read by the launch itself, so that the host need not wait.
+  /// launched; on CUDA the length is read by the launch itself, so that the host need not wait:
+  /// shader_table::expecting spares the launches of shaders that a scene does not have.
   template <class Policy, class... Shaders>
   void operator()(Policy const& exec, grouping group,
                   shader_table<Shaders...> const& shaders) const {

@@ -6,6 +6,7 @@
 #include <thrust/execution_policy.h>
 #include <thrust/iterator/counting_iterator.h>
 #include <thrust/scan.h>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -23,7 +24,7 @@ namespace detail {
 
 template <shader_id Shaders, class Policy, class Ids, class Workspace>
 grouping compact_grouping(host_system, Policy const& exec, request_index n, Ids ids,
-                          Workspace& scratch) {
+                          Workspace& scratch, std::bitset<Shaders> const& wanted) {
   block_partition const blocks(n, Shaders);
   auto const [permutation, counts, offsets] = scratch.take(
       elements<request_index>(n), elements<std::uint32_t>(blocks.max_count(n, Shaders) + 1),
@@ -36,6 +37,8 @@ grouping compact_grouping(host_system, Policy const& exec, request_index n, Ids 
 
   offsets[0] = 0;
   for (shader_id k = 0; k < Shaders; ++k) {
+    offsets[k + 1] = offsets[k];
+    if (!wanted[k]) continue;
     auto const selected = [ids, k](request_index i) { return shader_of(ids, i, Shaders) == k; };
     for_each_block(exec, blocks, [=, counts = counts](std::size_t b) {
       auto const [first, last] = requests(b);
@@ -60,10 +63,13 @@ grouping compact_grouping(host_system, Policy const& exec, request_index n, Ids 
 /// copies its requests there. Reads the ids twice per shader: the work grows with n * shaders.
 ///
 /// `ids` is a random-access iterator of `n` ids; `n` is a request_index, or on CUDA a device_count.
-/// The result lives in `scratch` until its next use.
+/// The result lives in `scratch` until its next use. Only the shaders that are `wanted` are
+/// compacted, the segments of others are empty.
 template <shader_id Shaders, class Policy, class Count, class Ids, class Allocator>
-grouping group_by_compaction(Policy const& exec, Count n, Ids ids, workspace<Allocator>& scratch) {
-  return detail::compact_grouping<Shaders>(detail::system_of<Policy>{}, exec, n, ids, scratch);
+grouping group_by_compaction(Policy const& exec, Count n, Ids ids, workspace<Allocator>& scratch,
+                             std::bitset<Shaders> const& wanted = std::bitset<Shaders>().set()) {
+  return detail::compact_grouping<Shaders>(detail::system_of<Policy>{}, exec, n, ids, scratch,
+                                           wanted);
 }
 
 }  // namespace deferred_shade

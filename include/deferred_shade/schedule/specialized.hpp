@@ -63,7 +63,8 @@ struct variants {
 };
 
 /// A schedule for scenes that do not need all shaders of a table: runs `schedule` over the smallest
-/// of some variants that has all shaders that can occur, and over the whole table where none has.
+/// of some variants that has all shaders that can occur, and over the whole table where none has;
+/// what launches one shader after another launches those that can occur.
 ///
 ///     using some = deferred_shade::variants<deferred_shade::ids<0, 1>,
 ///                                           deferred_shade::ids<0, 1, 4>>;
@@ -90,7 +91,9 @@ struct specialized<Schedule, variants<Variants...>, Shaders> {
     static_assert(sizeof...(AllShaders) == Shaders, "occurring has a bit for each shader");
     std::size_t const chosen = variant();
     std::size_t number = 0;
-    auto const run = [&](auto const& table) { schedule(exec, n, ids, table, scratch); };
+    auto const run = [&](auto const& table) {
+      schedule(exec, n, ids, table.expecting(occurring), scratch);
+    };
     bool const ran =
         ((chosen == number++ && (run(detail::variant_traits<Variants>::table(shaders)), true)) ||
          ...);

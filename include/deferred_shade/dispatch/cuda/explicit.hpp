@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include <deferred_shade/cuda/configuration.hpp>
 #include <deferred_shade/cuda/launch.hpp>
@@ -37,13 +38,16 @@ template <class Policy, class Count, class Ids, class... Shaders>
 void run_explicit(cuda_system, Policy const& exec, Count n, Ids ids,
                   shader_table<Shaders...> const& shaders) {
   cudaStream_t const stream = stream_of(exec);
+  auto const expected = shaders.expected();
+  bool first = true;
   shaders.for_each([&](auto id, auto const& shader) {
+    if (!expected[id]) return;
     using type = std::decay_t<decltype(shader)>;
     constexpr auto kernel =
         &masked_kernel<decltype(id)::value, sizeof...(Shaders), Count, Ids, type>;
     std::uint32_t const threads = occupancy_of<kernel>(declared_block_size<type>).threads;
     launch<kernel>("explicit_serialization", stream, {blocks_for(maximum_of(n), threads), threads},
-                   id == shaders.first_id(), n, ids, shader);
+                   std::exchange(first, false), n, ids, shader);
   });
 }
 
@@ -51,15 +55,18 @@ template <class Policy, class... Shaders>
 void run_explicit(cuda_system, Policy const& exec, grouping group,
                   shader_table<Shaders...> const& shaders) {
   cudaStream_t const stream = stream_of(exec);
+  auto const expected = shaders.expected();
+  bool first = true;
   shaders.for_each([&](auto id, auto const& shader) {
+    if (!expected[id]) return;
     using type = std::decay_t<decltype(shader)>;
     constexpr auto kernel = &segment_kernel<type>;
     auto const [threads, resident] = occupancy_of<kernel>(declared_block_size<type>);
     // Enough for an equal share of the requests, and to fill the device if one shader has them all.
-    std::size_t const share = blocks_for(group.maximum / sizeof...(Shaders), threads);
+    std::size_t const share = blocks_for(group.maximum / expected.count(), threads);
     std::size_t const blocks =
         std::min(blocks_for(group.maximum, threads), std::max(resident, share));
-    launch<kernel>("explicit_serialization", stream, {blocks, threads}, id == shaders.first_id(),
+    launch<kernel>("explicit_serialization", stream, {blocks, threads}, std::exchange(first, false),
                    group.permutation, group.offsets + id, shader);
   });
 }

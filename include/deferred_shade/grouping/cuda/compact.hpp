@@ -5,6 +5,7 @@
 #include <thrust/iterator/permutation_iterator.h>
 #include <thrust/iterator/transform_iterator.h>
 #include <thrust/iterator/transform_output_iterator.h>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <cub/device/device_select.cuh>
@@ -35,7 +36,8 @@ struct add_offset {
 };
 
 template <shader_id Shaders, class Policy, class Count, class Ids, class Workspace>
-grouping compact_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Workspace& scratch) {
+grouping compact_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Workspace& scratch,
+                          std::bitset<Shaders> const& wanted) {
   std::size_t const maximum = maximum_of(n);
   cudaStream_t const stream = stream_of(exec);
   cudaGetLastError();  // CUB would take what the renderer left there for an error of its own
@@ -58,7 +60,15 @@ grouping compact_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Wor
       scratch.take(elements<request_index>(maximum), elements<std::byte>(bytes),
                    elements<request_index>(Shaders + 1));
   check_cuda(cudaMemsetAsync(offsets, 0, sizeof(request_index), stream), "clearing an offset");
-  for (shader_id k = 0; k < Shaders; ++k) select(memory, bytes, k, permutation, offsets);
+  for (shader_id k = 0; k < Shaders; ++k) {
+    if (wanted[k]) {
+      select(memory, bytes, k, permutation, offsets);
+    } else {
+      check_cuda(cudaMemcpyAsync(offsets + k + 1, offsets + k, sizeof(request_index),
+                                 cudaMemcpyDeviceToDevice, stream),
+                 "copying an offset");
+    }
+  }
   return {permutation, offsets, maximum};
 }
 

@@ -22,6 +22,11 @@ namespace deferred_shade::detail {
 template <class... Shaders>
 inline constexpr std::uint32_t staged_threads = sizeof...(Shaders) <= 8 ? 128 : 512;
 
+template <class... Shaders>
+DEFERRED_SHADE_HOST_DEVICE auto const& first_of(shader_table<Shaders...> const& shaders) {
+  return shaders.template get<shader_table<Shaders...>::first_id()>();
+}
+
 /// One tile of record shaders: requests are loaded into shared memory in the order in which they
 /// lie, shaded in the order of their shaders, and the results, which take the place of the
 /// requests, are stored in the order in which they lie. `one_source`: all shaders have the same
@@ -58,8 +63,7 @@ __global__ void __launch_bounds__(staged_threads<Shaders...>)
 
   if constexpr (records::copies_words) {
     if (one_source) {
-      auto const* const words =
-          reinterpret_cast<uint4 const*>(shaders.template get<0>().source + first);
+      auto const* const words = reinterpret_cast<uint4 const*>(first_of(shaders).source + first);
       auto const count = static_cast<std::uint32_t>(size * (records::slot / sizeof(uint4)));
       for (std::uint32_t w = threadIdx.x; w < count; w += threads) {
         __pipeline_memcpy_async(&slots[w], &words[w], sizeof(uint4));
@@ -76,6 +80,13 @@ __global__ void __launch_bounds__(staged_threads<Shaders...>)
   std::uint32_t keys[Items];
   std::uint32_t places[Items];
   sort::load(ids, first, size, keys);
+  constexpr std::uint32_t present = present_bits<Shaders...>;
+  if constexpr (present != (std::uint32_t{1} << sizeof...(Shaders)) - 1) {
+#pragma unroll
+    for (std::uint32_t item = 0; item < Items; ++item) {  // a shader that is left out is none
+      if ((present >> keys[item] & 1U) == 0) keys[item] = sizeof...(Shaders);
+    }
+  }
   sort::find_places(temporary, keys, places, starts);
   __syncthreads();
 #pragma unroll
@@ -118,7 +129,7 @@ void run_staged(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> c
   bool one_source = records::copies_words;
   if constexpr (records::copies_words) {
     shaders.for_each([&](auto, auto const& shader) {
-      one_source = one_source && shader.source == shaders.template get<0>().source;
+      one_source = one_source && shader.source == first_of(shaders).source;
     });
   }
   launch<&staged_kernel<items, Count, Ids, Shaders...>>(
