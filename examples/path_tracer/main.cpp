@@ -66,7 +66,7 @@ scene load(options& o) {
   scene s = load_gltf(o.scene);
   if (o.effects == "all") return s;
   if (o.effects != "auto") leave_out_others(s, effects_named(o.effects));
-  o.settings.variant = variant_for(called_for(s));
+  specialize(o.settings, s);
   return s;
 }
 

@@ -36,10 +36,12 @@ void check(scene const& s, render_settings const& settings) {
   for (triangle const& t : s.triangles)
     if (t.material >= s.materials.size())
       throw std::invalid_argument("a triangle names a material that the scene does not have");
-  if (effect_bits const missing = called_for(s) & ~effects_of_variant(settings.variant);
-      missing.any())
+  effect_bits const called = called_for(s);
+  if (effect_bits const missing = called & ~effects_of_variant(settings.variant); missing.any())
     throw std::invalid_argument("the variant has no code for " + join_names(missing) +
                                 ", which the scene calls for");
+  if ((shaders_of(called) & ~settings.expected).any())
+    throw std::invalid_argument("a shader is not expected that the scene calls for");
 }
 
 }  // namespace
@@ -55,6 +57,12 @@ std::vector<std::string_view> schedules() {
       "implicit",      "explicit",        "compact+implicit", "compact+explicit", "sort+implicit",
       "sort+explicit", "bucket+implicit", "bucket+explicit",  "local-bitonic",    "local",
       "window"};
+}
+
+void specialize(render_settings& settings, scene const& s) {
+  effect_bits const called = called_for(s);
+  settings.variant = variant_for(called);
+  settings.expected = shaders_of(called);
 }
 
 render_result render(scene const& s, render_settings const& settings,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -20,9 +21,10 @@ struct render_settings {
   std::string backend = "omp";     ///< one of backends()
   std::string schedule = "local";  ///< one of schedules()
   unsigned threads = 0;            ///< of the CPU; 0: as many as it has
-  /// Which code runs: number of a declared set of effects, which has all that the scene calls for,
-  /// see variant_for; any larger number stands for all effects.
+  /// Which code runs: the number of a declared set of effects; any larger one stands for all.
   std::size_t variant = ~std::size_t{0};
+  /// The shaders that are launched, in schedules that launch one after another.
+  std::bitset<shader_count> expected = std::bitset<shader_count>().set();
   bool statistics = false;  ///< fill bounce::efficiency and bounce::group_efficiency
 };
 
@@ -40,7 +42,7 @@ struct bounce {
 struct render_result {
   std::vector<vec3> pixels;  ///< linear RGB radiance, row 0 on top
   std::vector<bounce> bounces;
-  double seconds = 0;
+  double seconds = 0;                   ///< without what statistics took
   std::uint64_t rays = 0;               ///< closest-hit and shadow rays
   std::uint64_t discarded_samples = 0;  ///< samples that were not finite
 };
@@ -49,9 +51,14 @@ struct render_result {
 std::vector<std::string_view> backends();
 std::vector<std::string_view> schedules();
 
+/// Chooses the least code that has all effects which the scene calls for, and the shaders of its
+/// materials.
+void specialize(render_settings& settings, scene const& s);
+
 /// Renders `s`; calls `progress` with the fraction done, from the calling thread.
-/// Throws std::invalid_argument for a name that the lists above do not have, std::runtime_error
-/// where there is no GPU for a backend that needs one.
+/// Throws std::invalid_argument for a name that the lists above do not have, and for code that
+/// lacks an effect which the scene calls for; std::runtime_error where there is no GPU for a
+/// backend that needs one.
 render_result render(scene const& s, render_settings const& settings,
                      std::function<void(double)> const& progress = {});
 

@@ -182,6 +182,12 @@ effect_bits called_for(scene const& s) {
   return result;
 }
 
+std::bitset<shader_count> shaders_of(effect_bits effects) {
+  std::bitset<shader_count> result;
+  for (std::size_t k = 0; k + 1 < result.size(); ++k) result[k] = effects[k];
+  return result.set(static_cast<std::size_t>(miss));
+}
+
 std::size_t variant_for(effect_bits effects) {
   return decltype(variants_of(declared_sets{}))::covering(effects);
 }

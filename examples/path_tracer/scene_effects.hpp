@@ -31,6 +31,9 @@ void leave_out_others(scene& s, effect_bits allowed);
 /// camera and its lights.
 effect_bits called_for(scene const& s);
 
+/// Their shaders, and that of rays which leave the scene.
+std::bitset<shader_count> shaders_of(effect_bits effects);
+
 /// The declared set of effects that covers these with the fewest, by its number; that of
 /// declared_sets, of which there is none, for all effects.
 std::size_t variant_for(effect_bits effects);

@@ -117,10 +117,13 @@ TEST_CASE("the smallest declared set that covers the scene runs", "[effects]") {
 TEST_CASE("code that lacks an effect refuses the scene", "[effects]") {
   scene s = wall_and_lamp(matte());
   render_settings settings = small(1, 2);
-  settings.variant = variant_for(called_for(s));
+  specialize(settings, s);
   s.lights.resize(1);
   CHECK_THROWS_WITH(render(s, settings),
                     "the variant has no code for punctual-lights, which the scene calls for");
+  s.lights.clear();
+  settings.expected.reset(number_of<effects::matte>);
+  CHECK_THROWS_WITH(render(s, settings), "a shader is not expected that the scene calls for");
 }
 
 TEST_CASE("an effect that is left out is gone from the scene", "[effects]") {
@@ -132,7 +135,7 @@ TEST_CASE("an effect that is left out is gone from the scene", "[effects]") {
   CHECK(s.sky.texels.empty());
   CHECK(s.materials[0].base_color_texture == no_texture);
   render_settings settings = small(1, 4);
-  settings.variant = variant_for(called_for(s));
+  specialize(settings, s);
   CHECK(render(s, settings).discarded_samples == 0);
 }
 
@@ -142,10 +145,14 @@ TEST_CASE("code for the effects of a scene gives the bits of code for all", "[ef
   auto const check = [&](scene const& s, std::string const& name) {
     render_settings settings = small(2, 8, machine);
     auto const all = render(s, settings);
-    settings.variant = variant_for(called_for(s));
-    CAPTURE(name, explain(s, settings.variant));
-    CHECK(same_bits(all, render(s, settings)));
     CHECK(all.discarded_samples == 0);
+    specialize(settings, s);
+    CAPTURE(name, explain(s, settings.variant));
+    for (char const* schedule : {"local", "explicit", "compact+explicit"}) {
+      CAPTURE(schedule);
+      settings.schedule = schedule;
+      CHECK(same_bits(all, render(s, settings)));
+    }
   };
   material shiny = matte();
   shiny.clearcoat = 1;
