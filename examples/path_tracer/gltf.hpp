@@ -10,12 +10,14 @@ namespace path_tracer {
 /// Reads a glTF 2.0 file, .gltf or .glb: its default scene, all nodes expanded to triangles in
 /// world space, the first camera in depth-first order, and all materials.
 ///
-/// A material runs the first shader that fits it:
-/// | emissiveFactor * emissiveStrength > 0                      | emitter                       |
+/// A material runs the first shader of `all_effects` that fits it:
+/// | emissiveFactor * emissiveStrength > 0                      | emitters                      |
 /// | extras: {"shader": "marble" or "wood"}                     | marble, wood                  |
 /// | transmission > 0, metallic < 0.99                          | smooth_glass, or rough_glass  |
 /// | clearcoat > 0                                              | clearcoat                     |
 /// | sheen colour > 0                                           | sheen                         |
+/// | iridescence > 0                                            | iridescence                   |
+/// | anisotropy > 0                                             | anisotropy                    |
 /// | metallic >= 0.99, no metallic-roughness texture            | metal                         |
 /// | metallic = 0, specular factor = 0                          | matte                         |
 /// | all else                                                   | plastic                       |
@@ -23,12 +25,13 @@ namespace path_tracer {
 /// than a pixel; that roughness then becomes 0.
 ///
 /// `extras` understood: "shader", "second_color", "pattern_scale" of a material, "background" of a
-/// scene. What else the file holds and a picture could show is left out and named, one line for
-/// each kind, in scene::warnings. Clipping planes, aspect ratio and mip filters are left out
-/// silently.
+/// scene, and those of the effects (docs/effects.md). What else the file holds and a picture could
+/// show is left out and named, one line for each kind, in scene::warnings. Clipping planes, aspect
+/// ratio and mip filters are left out silently.
 ///
 /// Extensions understood: KHR_lights_punctual and KHR_materials_{emissive_strength, ior,
-/// transmission, specular, clearcoat, sheen}, without their textures. Sparse accessors are refused.
+/// transmission, specular} and those of the effects, all without their textures. Sparse accessors
+/// are refused.
 ///
 /// Throws std::runtime_error with one line that names the file and the element: for a file that
 /// cannot be read, that breaks the rules of glTF, that requires another extension, or that holds no

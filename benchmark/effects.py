@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""What it costs to have code for effects that a scene does not call for.
+
+    benchmark/effects.py measure PATH_TRACER --backend NAME -o RESULT.json SCENE...
+    benchmark/effects.py table RESULT.json
+
+`measure` renders every scene with --effects all and --effects auto in turns, by every schedule, and keeps
+the seconds of each picture and the milliseconds of its shading. `table` prints, as Markdown, all over auto:
+medians over the repetitions.
+"""
+import argparse
+import json
+import pathlib
+import statistics
+import subprocess
+import sys
+import tempfile
+
+SCHEDULES = ["implicit", "explicit", "bucket+explicit", "bucket+implicit", "local", "window"]
+
+
+def render(arguments, scene, effects, schedule):
+    with tempfile.TemporaryDirectory() as folder:
+        report = pathlib.Path(folder) / "report.json"
+        command = [arguments.path_tracer, str(scene), "-o", str(pathlib.Path(folder) / "picture.pfm"), "--quiet",
+                   "--effects", effects, "--schedule", schedule, "--backend", arguments.backend,
+                   "--width", str(arguments.width), "--height", str(arguments.height),
+                   "--spp", str(arguments.spp), "--max-depth", str(arguments.max_depth), "--report", str(report)]
+        subprocess.run(command, check=True)
+        result = json.loads(report.read_text(encoding="utf-8"))
+    run = result["schedules"][0]
+    return {"code_for": result["settings"]["code_for"], "seconds": run["seconds"],
+            "shade_ms": sum(b["total_ms"] for b in run["bounces"])}
+
+
+def measure(arguments):
+    result = {"commit": arguments.commit, "machine": arguments.machine,
+              "settings": {k: getattr(arguments, k) for k in
+                           ("backend", "width", "height", "spp", "max_depth", "repetitions")}, "runs": []}
+    for scene in map(pathlib.Path, arguments.scenes):
+        for schedule in arguments.schedules.split(","):
+            for repetition in range(arguments.repetitions):
+                for effects in ("all", "auto") if repetition % 2 else ("auto", "all"):
+                    run = render(arguments, scene, effects, schedule)
+                    result["runs"].append({"scene": scene.stem, "schedule": schedule, "effects": effects, **run})
+            print(scene.stem, schedule, flush=True)
+    text = json.dumps(result, indent=1) + "\n"
+    temporary = pathlib.Path(arguments.output + ".part")
+    temporary.write_text(text, encoding="utf-8")
+    temporary.replace(arguments.output)
+
+
+def table(path):
+    with open(path, encoding="utf-8") as file:
+        result = json.load(file)
+    numbers, spreads = {}, []
+    for run in result["runs"]:
+        for what in ("seconds", "shade_ms"):
+            key = (run["scene"], run["schedule"], run["effects"], what)
+            numbers.setdefault(key, []).append(run[what])
+    code = {run["scene"]: run["code_for"] for run in result["runs"] if run["effects"] == "auto"}
+    schedules = list(dict.fromkeys(run["schedule"] for run in result["runs"]))
+
+    def ratio(scene, schedule, what):
+        every, least = (numbers[scene, schedule, e, what] for e in ("all", "auto"))
+        if what == "seconds":
+            spreads.extend((max(v) - min(v)) / statistics.median(v) for v in (every, least))
+        return statistics.median(every) / statistics.median(least)
+
+    settings = result["settings"]
+    print(", ".join([result["machine"], f"commit {result['commit']}", f"{settings['width']} x {settings['height']}"] +
+                    [f"{k} {settings[k]}" for k in ("backend", "spp", "max_depth", "repetitions")]) + "\n")
+    print("| scene | effects in its code | " + " | ".join(f"`{s}`" for s in schedules) + " |")
+    print("|---" * (len(schedules) + 2) + "|")
+    for scene, names in code.items():
+        count = len(names.split(", "))
+        cells = [f"{ratio(scene, s, 'seconds'):.2f} ({ratio(scene, s, 'shade_ms'):.2f})" for s in schedules]
+        print(f"| {scene} | {count} | " + " | ".join(cells) + " |")
+    print(f"\nSpread of a picture's seconds, (most - least) / median: half of them at most "
+          f"{100 * statistics.median(spreads):.0f} %, the largest {100 * max(spreads):.0f} %.")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True)
+    m = commands.add_parser("measure")
+    m.add_argument("path_tracer")
+    m.add_argument("scenes", nargs="+")
+    m.add_argument("--backend", default="omp")
+    m.add_argument("--schedules", default=",".join(SCHEDULES))
+    m.add_argument("--commit", default="unknown")
+    m.add_argument("--machine", default="unknown")
+    m.add_argument("-o", "--output", required=True)
+    for name, value in (("width", 512), ("height", 512), ("spp", 8), ("max-depth", 8), ("repetitions", 5)):
+        m.add_argument("--" + name, type=int, default=value)
+    commands.add_parser("table").add_argument("result")
+    arguments = parser.parse_args()
+    if arguments.command == "measure":
+        measure(arguments)
+    else:
+        table(arguments.result)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
