@@ -31,17 +31,20 @@ inline constexpr std::int32_t no_texture = -1;
 /// From this share of metal on, a material is a conductor.
 inline constexpr float metal_from = 0.99f;
 
+template <class Part, class T>
+using member_of = T Part::*;
+
 /// A property of glTF: a path below a material, a camera or a scene, `extras` among it, and the
 /// member of `Part` that takes its value. A number or colour has a range.
 template <class Part>
 struct property {
   char const* path;
-  float Part::*number = nullptr;
-  vec3 Part::*color = nullptr;
-  bool Part::*flag = nullptr;
+  member_of<Part, float> number = nullptr;
+  member_of<Part, vec3> color = nullptr;
+  member_of<Part, bool> flag = nullptr;
   double low = 0, high = 0;
   char const* word = nullptr;  ///< the text that sets the flag
-  std::string Part::*text = nullptr;
+  member_of<Part, std::string> text = nullptr;
 };
 
 template <class Part>

@@ -120,6 +120,10 @@ struct scene_part_of<Effect, std::void_t<typename Effect::scene_part>> {
 };
 
 template <class Effect, class = void>
+inline constexpr bool has_path_state = false;
+template <class Effect>
+inline constexpr bool has_path_state<Effect, std::void_t<typename Effect::path_state>> = true;
+template <class Effect, class = void>
 inline constexpr bool changes_camera_rays = false;
 template <class Effect>
 inline constexpr bool changes_camera_rays<

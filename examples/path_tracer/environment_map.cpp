@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "environment_map.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -9,8 +11,47 @@
 #include "third_party.hpp"
 
 namespace path_tracer {
+namespace {
 
-environment_map load_environment(std::string const& path) {
+/// As many as a random number of 24 bits picks each of.
+constexpr std::int64_t most_texels = std::int64_t{1} << 24;
+
+/// A file that remembers when more was asked of it than it has: stb does not.
+struct byte_stream {
+  std::vector<unsigned char> const& bytes;
+  std::size_t at;
+  bool has_ended;
+};
+
+int read_stream(void* user, char* to, int count) {
+  auto& stream = *static_cast<byte_stream*>(user);
+  std::size_t const taken =
+      std::min(static_cast<std::size_t>(count), stream.bytes.size() - stream.at);
+  // It fills a buffer of 128 bytes, and asks for less only of what it needs.
+  if (taken == 0 || (taken < static_cast<std::size_t>(count) && count < 128))
+    stream.has_ended = true;
+  std::copy_n(stream.bytes.begin() + static_cast<std::ptrdiff_t>(stream.at), taken, to);
+  stream.at += taken;
+  return static_cast<int>(taken);
+}
+
+void skip_stream(void* user, int count) {
+  auto& stream = *static_cast<byte_stream*>(user);
+  auto const at = static_cast<std::int64_t>(stream.at) + count;
+  stream.at = static_cast<std::size_t>(
+      std::clamp(at, std::int64_t{0}, static_cast<std::int64_t>(stream.bytes.size())));
+}
+
+int stream_is_at_end(void* user) {
+  auto const& stream = *static_cast<byte_stream*>(user);
+  return stream.at == stream.bytes.size() ? 1 : 0;
+}
+
+constexpr stbi_io_callbacks stream_calls = {read_stream, skip_stream, stream_is_at_end};
+
+}  // namespace
+
+environment_map load_environment(std::string const& path, float intensity) {
   auto const fail = [&](std::string const& what) {
     throw std::runtime_error("environment \"" + path + "\": " + what);
   };
@@ -22,13 +63,17 @@ environment_map load_environment(std::string const& path) {
   std::vector<unsigned char> bytes(static_cast<std::size_t>(size));
   if (!file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size)))
     fail("cannot be read");
-  auto const count = static_cast<int>(size);
-  if (stbi_is_hdr_from_memory(bytes.data(), count) == 0)
+  if (stbi_is_hdr_from_memory(bytes.data(), static_cast<int>(size)) == 0)
     fail("is not a picture in Radiance's .hdr format");
+  byte_stream stream{bytes, 0, false};
   int width = 0, height = 0, channels = 0;
   std::unique_ptr<float, void (*)(void*)> const values(
-      stbi_loadf_from_memory(bytes.data(), count, &width, &height, &channels, 3), stbi_image_free);
+      stbi_loadf_from_callbacks(&stream_calls, &stream, &width, &height, &channels, 3),
+      stbi_image_free);
   if (!values) fail(std::string("cannot be decoded: ") + stbi_failure_reason());
+  if (stream.has_ended) fail("is truncated");
+  if (width < 1 || height < 1) fail("has no pixels");
+  if (std::int64_t{width} * height > most_texels) fail("has more than 2^24 pixels");
   environment_map result;
   result.width = static_cast<std::uint32_t>(width);
   result.height = static_cast<std::uint32_t>(height);
@@ -36,9 +81,9 @@ environment_map load_environment(std::string const& path) {
   for (std::size_t k = 0; k < result.texels.size(); ++k) {
     float const* const v = values.get() + 3 * k;
     for (int c = 0; c < 3; ++c)
-      if (!(v[c] >= 0 && v[c] <= 1e30f))
+      if (!(v[c] >= 0 && v[c] * intensity <= 1e30f && v[c] <= 1e30f))
         fail("texel " + std::to_string(k % result.width) + ", " + std::to_string(k / result.width) +
-             " holds a value that is not finite or negative");
+             " holds a value that is negative or beyond 1e30");
     result.texels[k] = {v[0], v[1], v[2]};
   }
   return result;

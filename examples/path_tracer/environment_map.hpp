@@ -17,11 +17,11 @@ struct environment_map {
   std::vector<vec3> texels;
 };
 
-/// Reads a picture in Radiance's .hdr format. Throws std::runtime_error, for values that are not
-/// finite or negative as well.
-environment_map load_environment(std::string const& path);
+/// Reads a picture in Radiance's .hdr format, of 2^24 pixels at most. Throws std::runtime_error,
+/// for values that are negative or, times `intensity`, not in the range of a float as well.
+environment_map load_environment(std::string const& path, float intensity);
 
-/// A map as rays see it, turned about y.
+/// A map as rays see it, turned about y, counter-clockwise seen from above.
 struct environment_view {
   vec3 const* texels;
   std::uint32_t width, height;
@@ -30,12 +30,12 @@ struct environment_view {
 
   /// The unit direction of picture coordinates in [0, 1] x [0, 1].
   PT_HD vec3 direction(vec2 uv) const {
-    float const theta = pi * uv.y, phi = 2 * pi * (uv.x - 0.5f) + rotation;
+    float const theta = pi * uv.y, phi = 2 * pi * (uv.x - 0.5f) - rotation;
     float const s = std::sin(theta);
     return {s * std::sin(phi), std::cos(theta), -s * std::cos(phi)};
   }
   PT_HD vec2 coordinates(vec3 d) const {
-    float const turn = (std::atan2(d.x, -d.z) - rotation) / (2 * pi) + 0.5f;
+    float const turn = (std::atan2(d.x, -d.z) + rotation) / (2 * pi) + 0.5f;
     return {turn - std::floor(turn), std::acos(glm::clamp(d.y, -1.0f, 1.0f)) / pi};
   }
   /// The texel that has the coordinates inside.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -31,12 +32,20 @@ struct elements {
     return get<std::uint32_t>(i, component);
   }
 
-  /// A float, or a normalised unsigned integer.
+  /// A float, or a normalised integer.
   float float_at(std::size_t i, std::size_t component) const {
-    if (component_type == TINYGLTF_COMPONENT_TYPE_FLOAT) return get<float>(i, component);
-    float const largest =
-        component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ? 255.0f : 65535.0f;
-    return static_cast<float>(unsigned_at(i, component)) / largest;
+    switch (component_type) {
+      case TINYGLTF_COMPONENT_TYPE_FLOAT:
+        return get<float>(i, component);
+      case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return std::max(static_cast<float>(get<std::int8_t>(i, component)) / 127.0f, -1.0f);
+      case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return std::max(static_cast<float>(get<std::int16_t>(i, component)) / 32767.0f, -1.0f);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return static_cast<float>(unsigned_at(i, component)) / 255.0f;
+      default:
+        return static_cast<float>(unsigned_at(i, component)) / 65535.0f;
+    }
   }
 };
 

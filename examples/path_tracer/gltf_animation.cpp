@@ -25,47 +25,59 @@ std::vector<double> slerped(std::vector<double> const& a, std::vector<double> co
 
 animations::animations(document& d) {
   for (std::size_t k = 0; k < d.model.animations.size(); ++k) {
-    tinygltf::Animation const& animation = d.model.animations[k];
-    std::string const where = element(d.root, "animations", k);
-    for (tinygltf::AnimationChannel const& from : animation.channels) {
-      if (from.target_node < 0 || from.target_path == "weights") continue;
-      auto const number = static_cast<std::size_t>(from.sampler);
-      if (from.sampler < 0 || number >= animation.samplers.size())
-        throw std::runtime_error(where + ": a channel refers to no sampler of it");
-      tinygltf::AnimationSampler const& sampler = animation.samplers[number];
-      bool const cubic = sampler.interpolation == "CUBICSPLINE";
-      if (cubic) d.left_out.add("the curve of an animation between its keys", where);
-      elements const keys = open_accessor(d, where, sampler.input, "input");
-      elements const values = open_accessor(d, where, sampler.output, "output");
-      std::size_t const length = from.target_path == "rotation" ? 4 : 3;
-      tinygltf::Accessor const& output =
-          d.model.accessors[static_cast<std::size_t>(sampler.output)];
-      int const type = length == 4 ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3;
-      if (keys.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT || output.type != type ||
-          values.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT)
-        throw std::runtime_error(where +
-                                 ": its keys are not floats of the type that glTF asks for");
-      std::size_t const per_key = cubic ? 3 : 1;
-      if (values.count != keys.count * per_key)
-        throw std::runtime_error(where + ": it has " + std::to_string(values.count) +
-                                 " values for " + std::to_string(keys.count) + " keys");
-      channel c{static_cast<std::size_t>(from.target_node),
-                from.target_path,
-                sampler.interpolation == "STEP",
-                {},
-                {}};
-      for (std::size_t i = 0; i < keys.count; ++i) {
-        c.times.push_back(double{keys.float_at(i, 0)});
-        if (!std::isfinite(c.times[i]) || (i > 0 && !(c.times[i] > c.times[i - 1])))
-          throw std::runtime_error(where + ": the times of its keys do not increase");
-        std::vector<double> value;
-        for (std::size_t j = 0; j < length; ++j)
-          value.push_back(double{values.float_at(i * per_key + per_key / 2, j)});
-        c.values.push_back(value);
-      }
-      channels_.push_back(c);
-    }
+    where_ = element(d.root, "animations", k);
+    for (tinygltf::AnimationChannel const& from : d.model.animations[k].channels)
+      if (from.target_node >= 0) add(d, d.model.animations[k], from);
   }
+}
+
+void animations::fail(std::string const& what) const {
+  throw std::runtime_error(where_ + ": " + what);
+}
+
+void animations::add(document& d, tinygltf::Animation const& animation,
+                     tinygltf::AnimationChannel const& from) {
+  std::string const& path = from.target_path;
+  if (path != "translation" && path != "rotation" && path != "scale")
+    return d.left_out.add("animation of \"" + path + "\"", where_);
+  auto const number = static_cast<std::size_t>(from.sampler);
+  if (from.sampler < 0 || number >= animation.samplers.size())
+    fail("a channel refers to no sampler of it");
+  tinygltf::AnimationSampler const& sampler = animation.samplers[number];
+  bool const cubic = sampler.interpolation == "CUBICSPLINE";
+  if (!cubic && sampler.interpolation != "STEP" && sampler.interpolation != "LINEAR")
+    fail("its interpolation \"" + sampler.interpolation + "\" is none of glTF's");
+  if (cubic) d.left_out.add("the curve of an animation between its keys", where_);
+
+  elements const keys = open_accessor(d, where_, sampler.input, "input");
+  elements const values = open_accessor(d, where_, sampler.output, "output");
+  auto const type_of = [&](int accessor) {
+    return d.model.accessors[static_cast<std::size_t>(accessor)].type;
+  };
+  bool const rotates = path == "rotation";
+  bool const is_float = values.component_type == TINYGLTF_COMPONENT_TYPE_FLOAT;
+  if (keys.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT ||
+      type_of(sampler.input) != TINYGLTF_TYPE_SCALAR ||
+      type_of(sampler.output) != (rotates ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3) ||
+      !(is_float || (rotates && values.component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)))
+    fail("its keys are not of the types that glTF asks for");
+  std::size_t const per_key = cubic ? 3 : 1;
+  if (values.count != keys.count * per_key)
+    fail("it has " + std::to_string(values.count) + " values for " + std::to_string(keys.count) +
+         " keys");
+
+  channel c{
+      static_cast<std::size_t>(from.target_node), path, sampler.interpolation == "STEP", {}, {}};
+  for (std::size_t i = 0; i < keys.count; ++i) {
+    c.times.push_back(double{keys.float_at(i, 0)});
+    if (!std::isfinite(c.times[i]) || (i > 0 && !(c.times[i] > c.times[i - 1])))
+      fail("the times of its keys do not increase");
+    std::vector<double> value;
+    for (std::size_t j = 0; j < (rotates ? 4u : 3u); ++j)
+      value.push_back(double{values.float_at(i * per_key + per_key / 2, j)});
+    c.values.push_back(value);
+  }
+  channels_.push_back(c);
 }
 
 pose animations::at(std::size_t node, double seconds) const {

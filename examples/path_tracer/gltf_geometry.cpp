@@ -153,13 +153,18 @@ class primitive_reader {
         document_.left_out.add("triangle without an area", where_);
         continue;
       }
+      glm::dvec3 const q(closing_positions_[c[0]]);
+      vec3 const closing_face = vec3(glm::normalize(glm::cross(
+          glm::dvec3(closing_positions_[c[1]]) - q, glm::dvec3(closing_positions_[c[2]]) - q)));
+      auto const normal = [&](std::vector<vec3> const& normals, std::uint32_t corner, vec3 flat) {
+        return normals.empty() || normals[corner] == vec3(0) ? flat : normals[corner];
+      };
       for (int i = 0; i < 3; ++i) {
         result.position[i] = positions_[c[i]];
-        vec3 const normal = normals_.empty() ? vec3(0) : normals_[c[i]];
-        result.normal[i] = normal == vec3(0) ? vec3(face / length) : normal;
+        result.normal[i] = normal(normals_, c[i], vec3(face / length));
         result.uv[i] = uvs_.empty() ? vec2(0) : uvs_[c[i]];
         motion.position[i] = closing_positions_[c[i]];
-        motion.normal[i] = normals_.empty() ? result.normal[i] : closing_normals_[c[i]];
+        motion.normal[i] = normal(closing_normals_, c[i], closing_face);
       }
       out.triangles.push_back(result);
       out.motion.push_back(motion);

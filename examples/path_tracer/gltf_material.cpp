@@ -129,6 +129,8 @@ class material_reader {
     std::string const name = "its " + element(document_.root, "images", index) + " ";
     if (image.image.empty()) fail(name + "cannot be read from \"" + image.uri + "\"");
     auto const size = static_cast<int>(image.image.size());
+    if (stbi_is_hdr_from_memory(image.image.data(), size) != 0)
+      fail(name + "is neither a PNG nor a JPEG");
     int width = 0, height = 0, channels = 0;
     std::unique_ptr<stbi_uc, void (*)(void*)> const pixels(
         stbi_load_from_memory(image.image.data(), size, &width, &height, &channels, 4),

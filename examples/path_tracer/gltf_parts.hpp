@@ -34,9 +34,10 @@ struct pose {
   std::vector<double> translation, rotation, scale;
 };
 
-/// The animations of a file. The document must outlive it.
+/// The animations of a file.
 class animations {
  public:
+  animations() = default;
   /// Throws std::runtime_error where an animation has keys that do not fit together.
   explicit animations(document& d);
   pose at(std::size_t node, double seconds) const;
@@ -49,6 +50,11 @@ class animations {
     std::vector<double> times;
     std::vector<std::vector<double>> values;
   };
+  void add(document& d, tinygltf::Animation const& animation,
+           tinygltf::AnimationChannel const& from);
+  [[noreturn]] void fail(std::string const& what) const;
+
+  std::string where_;  ///< the animation at hand
   std::vector<channel> channels_;
 };
 

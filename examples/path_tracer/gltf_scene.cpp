@@ -14,11 +14,10 @@ using namespace gltf;
 /// Walks the nodes of one scene in depth-first order and expands them.
 class traversal {
  public:
-  traversal(document& d, scene& out)
-      : document_(d), scene_(out), animations_(d), seen_(d.model.nodes.size()) {}
+  traversal(document& d, scene& out) : document_(d), scene_(out), seen_(d.model.nodes.size()) {}
 
   void run(std::vector<int> const& roots) {
-    find_shutter();
+    find_shutter(first_camera(roots));
     push(roots, {glm::dmat4(1), glm::dmat4(1)});
     while (!stack_.empty()) {
       auto const [node, to_parent] = stack_.back();
@@ -27,7 +26,7 @@ class traversal {
     }
     if (!has_camera_) throw std::runtime_error("has no camera in its default scene");
     if (scene_.triangles.empty()) throw std::runtime_error("has no triangles in its default scene");
-    if (!moves_) scene_.motion.clear();
+    if (!moves_) std::vector<triangle_motion>().swap(scene_.motion);
   }
 
  private:
@@ -36,19 +35,37 @@ class traversal {
     placement to_parent;
   };
 
-  /// The camera's shutter, which comes before the nodes that are seen through it.
-  void find_shutter() {
-    for (std::size_t k = 0; k < document_.model.cameras.size(); ++k) {
-      camera c;
-      read_properties(document_.root["cameras"][k], c);
-      if (c.shutter_close < c.shutter_open)
-        throw std::runtime_error(element(document_.root, "cameras", k) +
-                                 ": its shutter closes before it opens");
-      if (k == 0) open_ = double{c.shutter_open}, close_ = double{c.shutter_close};
-      if (double{c.shutter_open} != open_ || double{c.shutter_close} != close_)
-        document_.left_out.add("shutter that is not the first camera's",
-                               element(document_.root, "cameras", k));
+  /// The first camera in depth-first order; -1 where there is none. Its shutter comes before the
+  /// nodes that are seen through it.
+  int first_camera(std::vector<int> const& roots) const {
+    std::vector<bool> seen(document_.model.nodes.size());
+    std::vector<int> stack(roots.rbegin(), roots.rend());
+    while (!stack.empty()) {
+      auto const index = static_cast<std::size_t>(stack.back());
+      stack.pop_back();
+      if (seen[index]) continue;
+      seen[index] = true;
+      tinygltf::Node const& node = document_.model.nodes[index];
+      if (node.camera >= 0) return node.camera;
+      stack.insert(stack.end(), node.children.rbegin(), node.children.rend());
     }
+    return -1;
+  }
+
+  void find_shutter(int index) {
+    if (index < 0) return;
+    auto const number = static_cast<std::size_t>(index);
+    camera c;
+    read_properties(document_.root["cameras"][number], c);
+    if (c.shutter_close < c.shutter_open)
+      throw std::runtime_error(element(document_.root, "cameras", number) +
+                               ": its shutter closes before it opens");
+    open_ = double{c.shutter_open};
+    close_ = double{c.shutter_close};
+    if (close_ > open_)
+      animations_ = animations(document_);
+    else if (!document_.model.animations.empty())
+      document_.left_out.add("animation without a shutter", "");
   }
 
   void push(std::vector<int> const& nodes, placement const& to_parent) {
@@ -78,8 +95,6 @@ class traversal {
     if (node.mesh >= 0) {
       append_mesh(document_, static_cast<std::size_t>(node.mesh), place, scene_);
       moves_ = moves_ || place.open != place.close;
-    } else if (place.open != place.close) {
-      document_.left_out.add("motion of what is no mesh", where);
     }
     if (node.camera >= 0 && has_camera_) document_.left_out.add("further camera", where);
     if (node.camera >= 0 && !has_camera_) {
@@ -90,6 +105,8 @@ class traversal {
         value_at(document_.root["nodes"][index], "/extensions/KHR_lights_punctual/light", -1);
     if (light >= 0)
       scene_.lights.push_back(make_light(document_, static_cast<std::size_t>(light), to_world));
+    if ((node.camera >= 0 || light >= 0) && place.open != place.close)
+      document_.left_out.add("motion of a camera or light", where);
     push(node.children, place);
   }
 

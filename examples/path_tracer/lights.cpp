@@ -55,6 +55,11 @@ light_list::light_list(scene const& s) {
     power.push_back(w);
   }
   triangle_count_ = static_cast<std::uint32_t>(entries_.size());
+  for (triangle_motion const& m : s.motion)
+    for (vec3 const& p : m.position) {
+      lower = glm::min(lower, p);
+      upper = glm::max(upper, p);
+    }
   double const radius = 0.5 * glm::length(glm::dvec3(upper) - glm::dvec3(lower));
   far_away_ = static_cast<float>(4 * radius + 1);
   for (std::uint32_t i = 0; i < s.lights.size(); ++i) {

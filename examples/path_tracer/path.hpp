@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <type_traits>
 
 #include "effects.hpp"
 #include "math.hpp"
@@ -43,14 +42,13 @@ struct basic_wave {
 };
 
 /// What an effect makes each path remember: an array where a set has the effect and it needs one.
-template <class Effect, class Set, class = void>
+template <class Effect, class Set,
+          bool Exists = Set::template has<Effect>&& detail::has_path_state<Effect>>
 struct path_array {
   static constexpr bool exists = false;
 };
 template <class Effect, class Set>
-struct path_array<
-    Effect, Set,
-    std::enable_if_t<Set::template has<Effect>, std::void_t<typename Effect::path_state>>> {
+struct path_array<Effect, Set, true> {
   static constexpr bool exists = true;
   typename Effect::path_state* states;
 };

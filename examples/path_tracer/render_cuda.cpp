@@ -26,7 +26,8 @@ class device_scene {
     move(view_.lights.entries, view_.lights.count);
     move(view_.lights.punctual, s.source.lights.size());
     move(view_.lights.sky.texels, s.source.sky.texels.size());
-    move(view_.lights.sky_entries, s.source.sky.texels.size());
+    bool const shines = view_.lights.sky_entry < view_.lights.count;
+    move(view_.lights.sky_entries, shines ? s.source.sky.texels.size() : 0);
     if (view_.motion != nullptr) move(view_.motion, s.source.motion.size());
     view_.lights.motion = view_.motion;
     view_.lights.triangles = view_.triangles;

@@ -54,6 +54,13 @@ struct shading_point {
     return length2 > 0 && length2 < INFINITY ? vec2{u.x, u.y} / std::sqrt(length2) : vec2{1, 0};
   }
 
+  /// 1 where u, against v and the normal make a right-handed frame, as where glTF's tangent space
+  /// is not mirrored and seen from the front; else -1.
+  PT_HD float side_of_v() const {
+    texture_axes const axes = axes_of(hit);
+    return glm::dot(glm::cross(at.normal, axes.u), axes.v) > 0 ? -1.0f : 1.0f;
+  }
+
   /// The refractive index of the far side over that of the near side.
   PT_HD float eta() const {
     float const inside = ior > 0 ? glm::max(ior, 1.001f) : 0.0f;

@@ -72,7 +72,7 @@ struct find_hits {
                       ? miss
                       : scene.materials[scene.triangles[h.primitive].material].kind;
     if constexpr (Set::template has<effects::medium>) {
-      if (scene.medium.extinction != vec3{0} && !inside_glass(i, h, kind)) {
+      if (scene.medium.extinction != vec3{0} && !inside_glass(i, h, kind, time)) {
         if (effects::medium::scatters(wave, scene.medium, i, h.t))
           kind = shader_of<effects::medium>;
         if (wave.throughput[i] == vec3{0}) {
@@ -85,10 +85,12 @@ struct find_hits {
   }
 
  private:
-  PT_HD bool inside_glass(request_index i, hit const& h, shader kind) const {
+  PT_HD bool inside_glass(request_index i, hit const& h, shader kind, float time) const {
     bool const glass =
         kind == shader_of<effects::smooth_glass> || kind == shader_of<effects::rough_glass>;
-    return glass && glm::dot(geometric_normal(scene.triangles[h.primitive]), wave.direction[i]) > 0;
+    if (!glass) return false;
+    loaded_triangle<Set> t = load_triangle<Set>(scene.triangles, scene.motion, h.primitive, time);
+    return glm::dot(geometric_normal(t), wave.direction[i]) > 0;
   }
 };
 

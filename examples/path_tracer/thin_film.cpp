@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "thin_film.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -45,7 +46,9 @@ film_reflectance reflectance_of_film(double film, double thickness, vec3 f0) {
     base[c] = (1 + root) / (1 - root);
   }
   for (int k = 0; k < film_reflectance::samples; ++k) {
-    double const cos_theta = static_cast<double>(k) / (film_reflectance::samples - 1);
+    // Just above the surface: at it, a film that is none would be 0 / 0.
+    double const cos_theta =
+        std::max(static_cast<double>(k) / (film_reflectance::samples - 1), 1e-6);
     glm::dvec3 sum(0), weights(0);
     for (int w = 0; w < wavelengths; ++w) {
       float const wavelength = sample_wavelength((static_cast<float>(w) + 0.5f) / wavelengths);

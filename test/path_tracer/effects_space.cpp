@@ -2,6 +2,7 @@
 // Lens, shutter, sky and fog against what is known of them in closed form.
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "bvh.hpp"
 #include "lights.hpp"
@@ -114,6 +115,22 @@ TEST_CASE("fog lets through what the exponential law says", "[effects]") {
   }
 }
 
+TEST_CASE("fog hides the sky from the channels that it takes away, and from no other",
+          "[effects]") {
+  std::string const machine = GENERATE(from_range(machines()));
+  CAPTURE(machine);
+  scene s = lit();
+  add_quad(s, {5, 5, 9}, {1, 0, 0}, {0, 1, 0}, 0);  // out of sight
+  s.background = vec3{0.5f};
+  s.medium_absorption = {0, 0.1f, 0.2f};
+  render_result const r = render(s, small(256, 4, machine));
+  glm::dvec2 const red = mean_and_error(r, 0);
+  CHECK_THAT(red.x, WithinAbs(0.5, red.y));
+  CHECK(red.y < 0.05);
+  CHECK(mean_and_error(r, 1).x == 0);
+  CHECK(mean_and_error(r, 2).x == 0);
+}
+
 TEST_CASE("fog that takes nothing away vanishes in a furnace", "[effects]") {
   std::string const machine = GENERATE(from_range(machines()));
   float const anisotropy = GENERATE(-0.5f, 0.0f, 0.8f);
@@ -172,6 +189,25 @@ TEST_CASE("the density of sky samples integrates to one", "[effects]") {
              (tau / (2 * steps));
     }
   CHECK_THAT(sum, WithinAbs(1, 1e-4));
+}
+
+TEST_CASE("a sky turns counter-clockwise, and a black one is dark", "[effects]") {
+  scene s = lit();
+  s.sky = {4, 2, std::vector<vec3>(8, vec3{0})};
+  light_list const list(s);
+  environment_view sky = list.view(s).sky;
+  CHECK(list.view(s).count == 0);
+  vec3 const middle = sky.direction({0.5f, 0.5f});
+  CHECK_THAT(middle.z, WithinAbs(-1, 1e-6));
+  CHECK_THAT(sky.direction({0.75f, 0.5f}).x, WithinAbs(1, 1e-6));
+  CHECK_THAT(sky.direction({0.5f, 0}).y, WithinAbs(1, 1e-6));
+  sky.rotation = pi / 2;  // about +y from -z: to -x
+  CHECK_THAT(sky.direction({0.5f, 0.5f}).x, WithinAbs(-1, 1e-6));
+  add_quad(s, {-9, -9, 0}, {18, 0, 0}, {0, 18, 0}, 0);
+  std::string const machine = GENERATE(from_range(machines()));
+  render_result const r = render(s, small(1, 3, machine));
+  CHECK(mean_and_error(r).x == 0);
+  CHECK(r.discarded_samples == 0);
 }
 
 TEST_CASE("a sky lights a plane by the integral over it", "[effects]") {

@@ -81,7 +81,8 @@ struct anisotropy {
     auto const& m = p.material;
     plastic_terms const terms(p.plastic_parameters(p.color));
     vec2 const u = p.direction_of_u();
-    float const c = std::cos(m.anisotropy_rotation), s = std::sin(m.anisotropy_rotation);
+    float const c = std::cos(m.anisotropy_rotation),
+                s = p.side_of_v() * std::sin(m.anisotropy_rotation);
     float const alpha = terms.lobe.distribution.alpha;
     turned_ggx const distribution{glm::mix(alpha, 1.0f, m.anisotropy * m.anisotropy), alpha,
                                   c * u.x - s * u.y, s * u.x + c * u.y};

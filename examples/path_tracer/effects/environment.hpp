@@ -29,7 +29,8 @@ struct environment {
   }
   template <class Scene>
   static void load(Scene& s, std::string const& folder) {
-    if (!s.environment_file.empty()) s.sky = load_environment(folder + s.environment_file);
+    if (!s.environment_file.empty())
+      s.sky = load_environment(folder + s.environment_file, s.environment_intensity);
   }
 };
 

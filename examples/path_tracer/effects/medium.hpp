@@ -71,7 +71,7 @@ struct medium {
     int const channel = glm::min(static_cast<int>(u.x * 3), 2);
     float const coefficient = m.extinction[channel];
     float const distance = coefficient > 0 ? -std::log(1 - u.y) / coefficient : endless;
-    bool const inside = distance < surface;
+    bool const inside = coefficient > 0 && distance < surface;
     vec3 const left = m.transmittance(glm::min(inside ? distance : surface, endless));
     vec3 const density = inside ? m.extinction * left : left;
     float const mean = (density.x + density.y + density.z) / 3;
