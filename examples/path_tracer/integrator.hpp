@@ -14,9 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "backends.hpp"
 #include "host_backend.hpp"
-#include "host_scene.hpp"
-#include "render.hpp"
 #include "scattering.hpp"
 #include "shaders.hpp"
 #include "stages.hpp"
@@ -24,8 +23,6 @@
 #include "wave_storage.hpp"
 
 namespace path_tracer {
-
-using progress_function = std::function<void(double)>;
 
 /// A wave holds one sample of each pixel where that makes no more than 2^20 paths, else so many.
 inline constexpr std::uint64_t small_wave = std::uint64_t{1} << 18;
@@ -206,10 +203,11 @@ bool with_schedule(std::string_view name, Function const& f) {
          is("window", ds::window_sort_then_dispatch{});
 }
 
-/// Renders a scene in the memory of `backend` by the schedule that the settings name.
+/// Renders a scene in the memory of `backend` by the schedule that the settings name, with code for
+/// a set of effects.
 template <class Set, class Backend>
-render_result integrate_with(Backend const& backend, scene_view const& scene,
-                             render_settings const& settings, progress_function const& progress) {
+render_result integrate(Backend const& backend, scene_view const& scene,
+                        render_settings const& settings, progress_function const& progress) {
   render_result result;
   bool const known = with_schedule(settings.schedule, [&](auto const& schedule) {
     result = integrator<Backend, Set>{backend, scene, settings}.run(schedule, progress);
@@ -217,30 +215,5 @@ render_result integrate_with(Backend const& backend, scene_view const& scene,
   if (!known) throw std::invalid_argument("unknown schedule \"" + settings.schedule + "\"");
   return result;
 }
-
-/// The same with the code that settings.variant names.
-template <class Backend, class... Sets>
-render_result integrate(Backend const& backend, scene_view const& scene,
-                        render_settings const& settings, progress_function const& progress,
-                        effect_list<Sets...>) {
-  render_result result;
-  std::size_t number = 0;
-  bool const declared =
-      ((settings.variant == number++ &&
-        (result = integrate_with<set_of<Sets>>(backend, scene, settings, progress), true)) ||
-       ...);
-  return declared ? result : integrate_with<every_effect>(backend, scene, settings, progress);
-}
-template <class Backend>
-render_result integrate(Backend const& backend, scene_view const& scene,
-                        render_settings const& settings, progress_function const& progress) {
-  return integrate(backend, scene, settings, progress, declared_sets{});
-}
-
-// One per backend, each in a file of its own.
-render_result render_cpp(host_scene const&, render_settings const&, progress_function const&);
-render_result render_omp(host_scene const&, render_settings const&, progress_function const&);
-render_result render_tbb(host_scene const&, render_settings const&, progress_function const&);
-render_result render_cuda(host_scene const&, render_settings const&, progress_function const&);
 
 }  // namespace path_tracer

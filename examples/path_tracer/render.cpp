@@ -4,29 +4,40 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "integrator.hpp"
+#include "backends.hpp"
 #include "scene_effects.hpp"
 
 namespace path_tracer {
 namespace {
 
+using render_function = render_result (*)(host_scene const&, render_settings const&,
+                                          progress_function const&);
+
 struct backend {
   std::string_view name;
-  render_result (*render)(host_scene const&, render_settings const&, progress_function const&);
+  render_function render[PATH_TRACER_VARIANTS];
 };
 
-constexpr backend all_backends[] = {
-    {"cpp", render_cpp},
+template <class... Sets>
+std::vector<backend> backends_of(effect_list<Sets...>) {
+  return {
+      {"cpp", {render_cpp<Sets>...}},
 #ifdef PATH_TRACER_HAS_OMP
-    {"omp", render_omp},
+      {"omp", {render_omp<Sets>...}},
 #endif
 #ifdef PATH_TRACER_HAS_TBB
-    {"tbb", render_tbb},
+      {"tbb", {render_tbb<Sets>...}},
 #endif
 #ifdef PATH_TRACER_HAS_CUDA
-    {"cuda", render_cuda},
+      {"cuda", {render_cuda<Sets>...}},
 #endif
-};
+  };
+}
+
+std::vector<backend> const& all_backends() {
+  static std::vector<backend> const list = backends_of(variant_sets{});
+  return list;
+}
 
 void check(scene const& s, render_settings const& settings) {
   std::uint64_t const pixels = std::uint64_t{settings.width} * settings.height;
@@ -48,7 +59,7 @@ void check(scene const& s, render_settings const& settings) {
 
 std::vector<std::string_view> backends() {
   std::vector<std::string_view> names;
-  for (backend const& b : all_backends) names.push_back(b.name);
+  for (backend const& b : all_backends()) names.push_back(b.name);
   return names;
 }
 
@@ -67,12 +78,14 @@ void specialize(render_settings& settings, scene const& s) {
 
 render_result render(scene const& s, render_settings const& settings,
                      std::function<void(double)> const& progress) {
-  auto const chosen = std::find_if(std::begin(all_backends), std::end(all_backends),
+  auto const& list = all_backends();
+  auto const chosen = std::find_if(list.begin(), list.end(),
                                    [&](backend const& b) { return b.name == settings.backend; });
-  if (chosen == std::end(all_backends))
+  if (chosen == list.end())
     throw std::invalid_argument("unknown backend \"" + settings.backend + "\"");
   check(s, settings);
-  return chosen->render(host_scene(s), settings, progress);
+  std::size_t const variant = std::min<std::size_t>(settings.variant, PATH_TRACER_VARIANTS - 1);
+  return chosen->render[variant](host_scene(s), settings, progress);
 }
 
 }  // namespace path_tracer

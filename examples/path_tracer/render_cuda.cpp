@@ -56,12 +56,17 @@ class device_scene {
 
 }  // namespace
 
+template <class Set>
 render_result render_cuda(host_scene const& scene, render_settings const& settings,
                           progress_function const& progress) {
   cuda_backend const backend;
   device_scene const copy(backend, scene);
-  return integrate(backend, copy.view(), settings, progress);
+  return integrate<Set>(backend, copy.view(), settings, progress);
 }
+
+template render_result render_cuda<variant_set<PATH_TRACER_VARIANT>>(host_scene const&,
+                                                                     render_settings const&,
+                                                                     progress_function const&);
 
 }  // namespace path_tracer
 

@@ -25,11 +25,16 @@ class thread_limit {
 
 }  // namespace
 
+template <class Set>
 render_result render_omp(host_scene const& scene, render_settings const& settings,
                          progress_function const& progress) {
   thread_limit const limit(settings.threads);
-  return integrate(host_backend{thrust::omp::par}, scene.view(), settings, progress);
+  return integrate<Set>(host_backend{thrust::omp::par}, scene.view(), settings, progress);
 }
+
+template render_result render_omp<variant_set<PATH_TRACER_VARIANT>>(host_scene const&,
+                                                                    render_settings const&,
+                                                                    progress_function const&);
 
 }  // namespace path_tracer
 
