@@ -4,10 +4,11 @@
 
     benchmark/effects.py measure PATH_TRACER --backend NAME -o RESULT.json SCENE...
     benchmark/effects.py table RESULT.json
+    benchmark/effects.py plot PLOT.svg RESULT.json...
 
 `measure` renders every scene with --effects all and --effects auto in turns, by every schedule, and keeps
 the seconds of each picture and the milliseconds of its shading. `table` prints, as Markdown, all over auto:
-medians over the repetitions.
+medians over the repetitions, of the picture and in brackets of its shading. `plot` draws the latter.
 """
 import argparse
 import json
@@ -81,6 +82,43 @@ def table(path):
           f"{100 * statistics.median(spreads):.0f} %, the largest {100 * max(spreads):.0f} %.")
 
 
+STYLE = """<style>
+text{font:13px sans-serif;fill:#222} .light{fill:#666} line{stroke:#888} .a{fill:#0072b2} .b{fill:#e69f00}
+@media (prefers-color-scheme:dark){text{fill:#eee} .light{fill:#aaa}}
+</style>"""
+
+
+def plot(path, results):
+    """Bars of shading, all over auto, for each scene and schedule; a colour for each result."""
+    runs = []
+    for name in results:
+        with open(name, encoding="utf-8") as file:
+            runs.append(json.load(file))
+    times = [{} for _ in runs]
+    for into, result in zip(times, runs):
+        for run in result["runs"]:
+            into.setdefault((run["scene"], run["schedule"], run["effects"]), []).append(run["shade_ms"])
+    pairs = list(dict.fromkeys((r["scene"], r["schedule"]) for r in runs[0]["runs"]))
+    row, left, unit = 9 * len(runs) + 6, 190, 150
+    height = 40 + row * len(pairs)
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="720" height="{height + 20}" role="img">', STYLE]
+    for k, result in enumerate(runs):
+        out.append(f'<rect class="{"ab"[k]}" x="{left + 250 * k}" y="8" width="12" height="12"/>'
+                   f'<text x="{left + 18 + 250 * k}" y="19">{result["machine"].split(",")[0]}</text>')
+    for i, (scene, schedule) in enumerate(pairs):
+        y = 36 + row * i
+        out.append(f'<text x="{left - 8}" y="{y + row / 2 + 2}" text-anchor="end">{scene} {schedule}</text>')
+        for k, into in enumerate(times):
+            ratio = (statistics.median(into[scene, schedule, "all"]) /
+                     statistics.median(into[scene, schedule, "auto"]))
+            out.append(f'<rect class="{"ab"[k]}" x="{left}" y="{y + 9 * k}" width="{unit * ratio:.1f}" height="8">'
+                       f"<title>{ratio:.2f}</title></rect>")
+    for x in (1, 2, 3):
+        out.append(f'<line x1="{left + unit * x}" x2="{left + unit * x}" y1="30" y2="{height}"/>'
+                   f'<text class="light" x="{left + unit * x}" y="{height + 14}" text-anchor="middle">{x}</text>')
+    pathlib.Path(path).write_text("\n".join(out) + "\n</svg>\n", encoding="utf-8")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True)
@@ -95,9 +133,14 @@ def main():
     for name, value in (("width", 512), ("height", 512), ("spp", 8), ("max-depth", 8), ("repetitions", 5)):
         m.add_argument("--" + name, type=int, default=value)
     commands.add_parser("table").add_argument("result")
+    p = commands.add_parser("plot")
+    p.add_argument("output")
+    p.add_argument("results", nargs="+")
     arguments = parser.parse_args()
     if arguments.command == "measure":
         measure(arguments)
+    elif arguments.command == "plot":
+        plot(arguments.output, arguments.results)
     else:
         table(arguments.result)
 
