@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -60,6 +61,14 @@ struct occurrences {
   std::vector<std::uint64_t> requests;
   /// groups[k]: the groups in which shader k occurs.
   std::vector<std::uint64_t> groups;
+
+  /// The shaders that occur, of a table of so many: for specialized and shader_table::expecting.
+  template <shader_id Shaders>
+  std::bitset<Shaders> occurring() const {
+    std::bitset<Shaders> result;
+    for (shader_id k = 0; k < Shaders; ++k) result[k] = requests.at(k) > 0;
+    return result;
+  }
 };
 
 namespace detail {

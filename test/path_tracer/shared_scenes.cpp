@@ -51,6 +51,22 @@ TEST_CASE("a scene of a modelling tool has the same bits whatever runs", "[share
   }
 }
 
+TEST_CASE("a scene of a modelling tool has the same bits by code for its effects alone",
+          "[shared]") {
+  for (char const* const name : {"studio.glb", "balls.glb", "cornell.glb"}) {
+    auto const path = shared_scene(name);
+    if (!std::filesystem::exists(path)) continue;
+    CAPTURE(name);
+    scene const s = load_gltf(path.string());
+    for (std::string const& machine : machines()) {
+      render_settings settings = small(2, 16, machine);
+      auto const all = render(s, settings);
+      specialize(settings, s);
+      CHECK(same_bits(all, render(s, settings)));
+    }
+  }
+}
+
 // Minutes of work: hidden, and run by name. The reference is by Blender Cycles, 2048 samples and 64
 // bounces, with emission on both sides.
 TEST_CASE("cornell.glb agrees with the picture of another renderer", "[.][reference]") {

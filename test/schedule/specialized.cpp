@@ -177,3 +177,20 @@ TEST_CASE("explicit serialization launches what is expected, and nothing else", 
             ids.data(), fewer, scratch);
   CHECK(ran == std::vector<int>{0, 3, 0, 3, 0});
 }
+
+TEMPLATE_LIST_TEST_CASE("the shaders of a wave choose the variant", "[specialized]",
+                        test::backends) {
+  CAPTURE(test::run_seed());
+  for (auto const& kept : {set_of({}), set_of({1, 3, 4}), set_of({0, 2})}) {
+    auto const wave = without(wave_of(several_tiles), kept);
+    auto const ids = test::on<TestType>(wave);
+    auto const exec = TestType::policy();
+    auto const counts = ds::count_occurrences(exec, several_tiles, ids.data(), shaders);
+    ds::specialized const special{ds::bucket_then_dispatch<>{}, some{},
+                                  counts.template occurring<shaders>()};
+    CHECK(special.occurring == kept);
+    CHECK(special.variant() == some::covering(kept));
+    ds::workspace scratch{exec};
+    test::check_against_loop<TestType, shaders>(special, several_tiles, ids.data(), scratch);
+  }
+}
