@@ -89,7 +89,7 @@ text{font:13px sans-serif;fill:#222} .light{fill:#666} line{stroke:#888} .a{fill
 
 
 def plot(path, results):
-    """Bars of shading, all over auto, for each scene and schedule; a colour for each result."""
+    """Bars of shading, all over auto, for each scene and schedule of all results; a colour for each of two."""
     runs = []
     for name in results:
         with open(name, encoding="utf-8") as file:
@@ -98,7 +98,8 @@ def plot(path, results):
     for into, result in zip(times, runs):
         for run in result["runs"]:
             into.setdefault((run["scene"], run["schedule"], run["effects"]), []).append(run["shade_ms"])
-    pairs = list(dict.fromkeys((r["scene"], r["schedule"]) for r in runs[0]["runs"]))
+    pairs = [p for p in dict.fromkeys((r["scene"], r["schedule"]) for r in runs[0]["runs"])
+             if all((*p, "all") in into for into in times)]
     row, left, unit = 9 * len(runs) + 6, 190, 150
     height = 40 + row * len(pairs)
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="720" height="{height + 20}" role="img">', STYLE]
