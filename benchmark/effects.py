@@ -7,8 +7,10 @@
     benchmark/effects.py plot PLOT.svg RESULT.json...
 
 `measure` renders every scene with --effects all and --effects auto in turns, by every schedule, and keeps
-the seconds of each picture and the milliseconds of its shading. `table` prints, as Markdown, all over auto:
-medians over the repetitions, of the picture and in brackets of its shading. `plot` draws the latter.
+the seconds of each picture and the milliseconds of its shading, grouping included; with --against PROGRAM also
+by another path tracer, which has code for the effects of these scenes alone. `table` prints, as Markdown, all
+over auto, and auto over that program: medians over the repetitions, of the picture and in brackets of its
+shading. `plot` draws the latter.
 """
 import argparse
 import json
@@ -18,34 +20,36 @@ import subprocess
 import sys
 import tempfile
 
-SCHEDULES = ["implicit", "explicit", "bucket+explicit", "bucket+implicit", "local", "window"]
 
 
-def render(arguments, scene, effects, schedule):
+def render(arguments, program, scene, effects):
+    """All schedules, one after the other, in one process."""
     with tempfile.TemporaryDirectory() as folder:
         report = pathlib.Path(folder) / "report.json"
-        command = [arguments.path_tracer, str(scene), "-o", str(pathlib.Path(folder) / "picture.pfm"), "--quiet",
-                   "--effects", effects, "--schedule", schedule, "--backend", arguments.backend,
+        command = [program, str(scene), "-o", str(pathlib.Path(folder) / "picture.pfm"), "--quiet",
+                   "--effects", effects, "--schedule", arguments.schedule, "--backend", arguments.backend,
                    "--width", str(arguments.width), "--height", str(arguments.height),
                    "--spp", str(arguments.spp), "--max-depth", str(arguments.max_depth), "--report", str(report)]
         subprocess.run(command, check=True)
         result = json.loads(report.read_text(encoding="utf-8"))
-    run = result["schedules"][0]
-    return {"code_for": result["settings"]["code_for"], "seconds": run["seconds"],
-            "shade_ms": sum(b["total_ms"] for b in run["bounces"])}
+    return [{"code_for": result["settings"]["code_for"], "schedule": run["schedule"], "seconds": run["seconds"],
+             "shade_ms": sum(b["total_ms"] for b in run["bounces"])} for run in result["schedules"]]
 
 
 def measure(arguments):
     result = {"commit": arguments.commit, "machine": arguments.machine,
               "settings": {k: getattr(arguments, k) for k in
                            ("backend", "width", "height", "spp", "max_depth", "repetitions")}, "runs": []}
+    programs = [("auto", arguments.path_tracer, "auto"), ("all", arguments.path_tracer, "all")]
+    if arguments.against:
+        programs.append(("only", arguments.against, "all"))
     for scene in map(pathlib.Path, arguments.scenes):
-        for schedule in arguments.schedules.split(","):
-            for repetition in range(arguments.repetitions):
-                for effects in ("all", "auto") if repetition % 2 else ("auto", "all"):
-                    run = render(arguments, scene, effects, schedule)
-                    result["runs"].append({"scene": scene.stem, "schedule": schedule, "effects": effects, **run})
-            print(scene.stem, schedule, flush=True)
+        for repetition in range(arguments.repetitions):
+            turn = repetition % len(programs)
+            for name, program, effects in programs[turn:] + programs[:turn]:
+                for run in render(arguments, program, scene, effects):
+                    result["runs"].append({"scene": scene.stem, "effects": name, **run})
+        print(scene.stem, flush=True)
     text = json.dumps(result, indent=1) + "\n"
     temporary = pathlib.Path(arguments.output + ".part")
     temporary.write_text(text, encoding="utf-8")
@@ -63,23 +67,27 @@ def table(path):
     code = {run["scene"]: run["code_for"] for run in result["runs"] if run["effects"] == "auto"}
     schedules = list(dict.fromkeys(run["schedule"] for run in result["runs"]))
 
-    def ratio(scene, schedule, what):
-        every, least = (numbers[scene, schedule, e, what] for e in ("all", "auto"))
+    def ratio(scene, schedule, pair, what):
+        above, below = (numbers[scene, schedule, e, what] for e in pair)
         if what == "seconds":
-            spreads.extend((max(v) - min(v)) / statistics.median(v) for v in (every, least))
-        return statistics.median(every) / statistics.median(least)
+            spreads.extend((max(v) - min(v)) / statistics.median(v) for v in (above, below))
+        return statistics.median(above) / statistics.median(below)
 
     settings = result["settings"]
     print(", ".join([result["machine"], f"commit {result['commit']}", f"{settings['width']} x {settings['height']}"] +
-                    [f"{k} {settings[k]}" for k in ("backend", "spp", "max_depth", "repetitions")]) + "\n")
-    print("| scene | effects in its code | " + " | ".join(f"`{s}`" for s in schedules) + " |")
-    print("|---" * (len(schedules) + 2) + "|")
-    for scene, names in code.items():
-        count = len(names.split(", "))
-        cells = [f"{ratio(scene, s, 'seconds'):.2f} ({ratio(scene, s, 'shade_ms'):.2f})" for s in schedules]
-        print(f"| {scene} | {count} | " + " | ".join(cells) + " |")
-    print(f"\nSpread of a picture's seconds, (most - least) / median: half of them at most "
-          f"{100 * statistics.median(spreads):.0f} %, the largest {100 * max(spreads):.0f} %.")
+                    [f"{k} {settings[k]}" for k in ("backend", "spp", "max_depth", "repetitions")]))
+    for pair, title in ((("all", "auto"), ""), (("auto", "only"), "By its effects, over a program of those alone:\n\n")):
+        if not all(any(run["effects"] == e for run in result["runs"]) for e in pair):
+            continue
+        spreads.clear()
+        print(f"\n{title}| scene | effects in its code | " + " | ".join(f"`{s}`" for s in schedules) + " |")
+        print("|---" * (len(schedules) + 2) + "|")
+        for scene, names in code.items():
+            cells = [f"{ratio(scene, s, pair, 'seconds'):.2f} ({ratio(scene, s, pair, 'shade_ms'):.2f})"
+                     for s in schedules]
+            print(f"| {scene} | {len(names.split(', '))} | " + " | ".join(cells) + " |")
+        print(f"\nSpread of a picture's seconds, (most - least) / median: half of them at most "
+              f"{100 * statistics.median(spreads):.0f} %, the largest {100 * max(spreads):.0f} %.")
 
 
 STYLE = """<style>
@@ -127,7 +135,8 @@ def main():
     m.add_argument("path_tracer")
     m.add_argument("scenes", nargs="+")
     m.add_argument("--backend", default="omp")
-    m.add_argument("--schedules", default=",".join(SCHEDULES))
+    m.add_argument("--schedule", default="all")
+    m.add_argument("--against")
     m.add_argument("--commit", default="unknown")
     m.add_argument("--machine", default="unknown")
     m.add_argument("-o", "--output", required=True)

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "math.hpp"
 
@@ -18,6 +20,7 @@ namespace path_tracer {
 //   static auto bsdf(point)                            makes it a shader, which gives this BSDF
 //   static void prepare(material&)                     what is computed once per material
 //   static bool in_material, in_camera, in_scene       of what is no shader: who calls for it
+//   static std::string callers(scene)                  who that is, if not just "the scene"
 //   static void load(scene&, folder)                   reads other files, beside that of the scene
 //   static void leave_out(scene&)                      takes away what is not in its parts
 //   using path_state                                   what a path remembers, zero at first
@@ -30,6 +33,16 @@ inline constexpr std::int32_t no_texture = -1;
 
 /// From this share of metal on, a material is a conductor.
 inline constexpr float metal_from = 0.99f;
+
+/// Some of a scene's elements: the first by its number and, where it has one, its name, and how
+/// many more: `light 0 "sun" and 2 more`.
+inline std::string some_of(char const* kind, std::size_t first,
+                           std::vector<std::string> const& names, std::size_t count) {
+  std::string result = std::string(kind) + " " + std::to_string(first);
+  if (first < names.size() && !names[first].empty()) result += " \"" + names[first] + "\"";
+  if (count > 1) result += " and " + std::to_string(count - 1) + " more";
+  return result;
+}
 
 template <class Part, class T>
 using member_of = T Part::*;

@@ -4,13 +4,15 @@
 #include <string>
 
 #include "scene.hpp"
+#include "scene_effects.hpp"
 
 namespace path_tracer {
 
 /// Reads a glTF 2.0 file, .gltf or .glb: its default scene, all nodes expanded to triangles in
 /// world space, the first camera in depth-first order, and all materials.
 ///
-/// A material runs the first shader of `all_effects` that fits it:
+/// Effects outside `allowed` are left out (leave_out_others), and files that only they need are not
+/// read. A material runs the first allowed shader of `all_effects` that fits it:
 /// | emissiveFactor * emissiveStrength > 0                      | emitters                      |
 /// | extras: {"shader": "marble" or "wood"}                     | marble, wood                  |
 /// | transmission > 0, metallic < 0.99                          | smooth_glass, or rough_glass  |
@@ -36,6 +38,6 @@ namespace path_tracer {
 /// Throws std::runtime_error with one line that names the file and the element: for a file that
 /// cannot be read, that breaks the rules of glTF, that requires another extension, or that holds no
 /// camera or no triangle.
-scene load_gltf(std::string const& path);
+scene load_gltf(std::string const& path, effect_bits allowed = effect_bits().set());
 
 }  // namespace path_tracer

@@ -103,8 +103,11 @@ class traversal {
     }
     int const light =
         value_at(document_.root["nodes"][index], "/extensions/KHR_lights_punctual/light", -1);
-    if (light >= 0)
-      scene_.lights.push_back(make_light(document_, static_cast<std::size_t>(light), to_world));
+    if (light >= 0) {
+      auto const number = static_cast<std::size_t>(light);
+      scene_.lights.push_back(make_light(document_, number, to_world));
+      scene_.light_names.push_back(document_.model.lights[number].name);
+    }
     if ((node.camera >= 0 || light >= 0) && place.open != place.close)
       document_.left_out.add("motion of a camera or light", where);
     push(node.children, place);
@@ -164,10 +167,11 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-scene load_gltf(std::string const& path) {
+scene load_gltf(std::string const& path, effect_bits allowed) {
   try {
     document d = read_document(path);
     scene result = make_scene(d);
+    if (!allowed.all()) leave_out_others(result, allowed);
     load_files(path, result);
     for (std::string& warning : result.warnings) warning = one_line(path + ": " + warning);
     return result;

@@ -63,10 +63,9 @@ void print_summary(options const& o, std::vector<run> const& runs) {
 
 /// The scene with the effects that the options leave it; the settings get the code for them.
 scene load(options& o) {
-  scene s = load_gltf(o.scene);
-  if (o.effects == "all") return s;
-  if (o.effects != "auto") leave_out_others(s, effects_named(o.effects));
-  specialize(o.settings, s);
+  bool const names = o.effects != "auto" && o.effects != "all";
+  scene s = load_gltf(o.scene, names ? effects_named(o.effects) : effect_bits().set());
+  if (o.effects != "all") specialize(o.settings, s);
   return s;
 }
 

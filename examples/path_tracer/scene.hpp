@@ -73,6 +73,7 @@ struct scene : scene_parts<all_effects> {
   std::vector<texture> textures;
   std::vector<std::uint32_t> texels;  ///< RGBA8, red in the lowest byte
   std::vector<punctual_light> lights;
+  std::vector<std::string> light_names;  ///< as the file has them; may be shorter
   camera view;
   vec3 background{0};
   std::vector<std::string> warnings;  ///< what the file asks for and the renderer leaves out

@@ -32,6 +32,10 @@ constexpr bool has_in_scene = false;
 template <class E>
 constexpr bool has_in_scene<E, std::void_t<decltype(&E::template in_scene<scene>)>> = true;
 template <class E, class = void>
+constexpr bool has_callers = false;
+template <class E>
+constexpr bool has_callers<E, std::void_t<decltype(&E::template callers<scene>)>> = true;
+template <class E, class = void>
 constexpr bool has_leave_out = false;
 template <class E>
 constexpr bool has_leave_out<E, std::void_t<decltype(&E::template leave_out<scene>)>> = true;
@@ -83,29 +87,26 @@ deferred_shade::variants<typename ids_of<Sets>::type...> variants_of(effect_list
   return {};
 }
 
-std::string name_of(scene const& s, std::size_t material) {
-  std::string result = "material " + std::to_string(material);
-  if (material < s.material_names.size() && !s.material_names[material].empty())
-    result += " \"" + s.material_names[material] + "\"";
-  return result;
-}
-
 /// Who calls for an effect, as `material 3 "lamp" and 2 more`; empty for nobody.
 template <class Effect>
 std::string callers(scene const& s, std::vector<bool> const& used) {
-  std::string first;
-  std::size_t count = 0;
+  std::string result;
+  std::size_t first = 0, count = 0;
   for (std::size_t k = 0; k < s.materials.size(); ++k) {
     if (!used[k] || !calls_for<Effect>(s.materials[k])) continue;
-    if (count++ == 0) first = name_of(s, k);
+    if (count++ == 0) first = k;
   }
-  if (count > 1) first += " and " + std::to_string(count - 1) + " more";
-  auto const add = [&](char const* who) {
-    first += (first.empty() ? "" : ", ") + std::string(who);
-  };
+  auto const add = [&](std::string const& who) { result += (result.empty() ? "" : ", ") + who; };
+  if (count > 0) add(some_of("material", first, s.material_names, count));
   if (calls_for<Effect>(s.view)) add("the camera");
-  if (calls_for<Effect>(s)) add("the scene");
-  return first;
+  if (calls_for<Effect>(s)) {
+    if constexpr (has_callers<Effect>) {
+      add(Effect::callers(s));
+    } else {
+      add("the scene");
+    }
+  }
+  return result;
 }
 
 }  // namespace

@@ -168,11 +168,22 @@ TEST_CASE("code for the effects of a scene gives the bits of code for all", "[ef
 TEST_CASE("the explanation says who calls for what", "[effects]") {
   scene s = wall_and_lamp(matte());
   s.view.aperture_radius = 0.1f;
+  s.lights.resize(2);
+  s.light_names = {"sun", ""};
+  s.sky.texels = {vec3{1}};
+  s.environment_file = "sky.hdr";
   std::string const text = explain(s, variant_for(called_for(s)));
   CAPTURE(text);
   CHECK(text.find("  emitters         material 1 \"lamp\"\n") != std::string::npos);
   CHECK(text.find("  depth-of-field   the camera\n") != std::string::npos);
+  CHECK(text.find("  punctual-lights  light 0 \"sun\" and 1 more\n") != std::string::npos);
+  CHECK(text.find("  environment      the environment \"sky.hdr\"\n") != std::string::npos);
   CHECK(text.find("It runs code for all effects\n") != std::string::npos);
+  s.lights = {s.lights[0]};
+  s.light_names.clear();
+  CHECK(explain(s, 2).find("  punctual-lights  light 0\n") != std::string::npos);
+  s.lights.clear();
+  s.sky = environment_map{};
   s.view.aperture_radius = 0;
   std::string const less = explain(s, variant_for(called_for(s)));
   CAPTURE(less);

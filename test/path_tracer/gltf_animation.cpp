@@ -117,6 +117,20 @@ TEST_CASE("an animation with something wrong is refused by name", "[animation]")
   check(a, "its keys are not of the types");
 }
 
+TEST_CASE("a file of an effect that is left out is not read", "[environment]") {
+  using namespace path_tracer;
+  gltf_fixture f;
+  f.root["scenes"][0]["extras"] = {{"environment", "nowhere.hdr"}};
+  temporary_folder const folder;
+  write_bytes(folder / "scene.gltf", f.text());
+  CHECK_THROWS(load_gltf(folder / "scene.gltf"));
+  effect_bits allowed = effect_bits().set();
+  allowed.reset(number_of<effects::environment>);
+  scene const s = load_gltf(folder / "scene.gltf", allowed);
+  CHECK(s.environment_file.empty());
+  CHECK((called_for(s) & ~allowed).none());
+}
+
 TEST_CASE("an environment is a whole picture in Radiance's format", "[environment]") {
   temporary_folder const folder;
   std::string const path = folder / "sky.hdr";

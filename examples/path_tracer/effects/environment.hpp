@@ -28,6 +28,10 @@ struct environment {
     return !s.sky.texels.empty();
   }
   template <class Scene>
+  static std::string callers(Scene const& s) {
+    return "the environment \"" + s.environment_file + "\"";
+  }
+  template <class Scene>
   static void load(Scene& s, std::string const& folder) {
     if (!s.environment_file.empty())
       s.sky = load_environment(folder + s.environment_file, s.environment_intensity);

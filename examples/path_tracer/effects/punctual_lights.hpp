@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include "../effect.hpp"
 
 namespace path_tracer::effects {
@@ -14,8 +16,13 @@ struct punctual_lights {
     return !s.lights.empty();
   }
   template <class Scene>
+  static std::string callers(Scene const& s) {
+    return some_of("light", 0, s.light_names, s.lights.size());
+  }
+  template <class Scene>
   static void leave_out(Scene& s) {
     s.lights.clear();
+    s.light_names.clear();
   }
 };
 
