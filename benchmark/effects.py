@@ -49,11 +49,14 @@ def measure(arguments):
             for name, program, effects in programs[turn:] + programs[:turn]:
                 for run in render(arguments, program, scene, effects):
                     result["runs"].append({"scene": scene.stem, "effects": name, **run})
+        write(arguments.output, result)  # what is measured is not lost if the rest is interrupted
         print(scene.stem, flush=True)
-    text = json.dumps(result, indent=1) + "\n"
-    temporary = pathlib.Path(arguments.output + ".part")
-    temporary.write_text(text, encoding="utf-8")
-    temporary.replace(arguments.output)
+
+
+def write(path, result):
+    temporary = pathlib.Path(path + ".part")
+    temporary.write_text(json.dumps(result, indent=1) + "\n", encoding="utf-8")
+    temporary.replace(path)
 
 
 def table(path):
