@@ -19,7 +19,7 @@ from collections import defaultdict
 
 MICROSECONDS = {"ns": 1e-3, "us": 1.0, "ms": 1e3, "s": 1e6}
 ORACLES = ("oracle-launches", "oracle-switch")
-CONTROLS = ORACLES + ("known-counts",)
+CONTROLS = ORACLES + ("known-counts", "switch")
 
 
 def read(path):
@@ -139,14 +139,13 @@ def print_schedules(times):
 
     run = cells.runs[0]
     for kind in ("record", "index"):
-        print("## Speedup of the best other schedule over unsorted implicit_serialization, "
-              f"{kind} shaders, run {run}\n")
+        print(f"## Speedup of the best schedule over a plain switch, unsorted, {kind} shaders, run {run}\n")
         rows = []
         for shaders in cells.sets:
             row = [shaders]
             for n in cells.sizes:
-                unsorted = cells.rows[shaders, n, run][kind].get("implicit")
-                best = cells.best((shaders, n, run), [kind], CONTROLS + ("implicit",))
+                unsorted = cells.rows[shaders, n, run][kind].get("switch")
+                best = cells.best((shaders, n, run), [kind])
                 row.append(f"{unsorted / best[0]:.2f} {best[1]}" if unsorted and best else "")
             rows.append(row)
         table(["shaders"] + [size(n) for n in cells.sizes], rows)

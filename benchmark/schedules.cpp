@@ -3,7 +3,8 @@
 // as controls:
 //   oracle-launches   requests that already lie sorted in memory, nothing to schedule: a launch per
 //   oracle-switch     shader, or one launch with a switch
-//   implicit          requests as they come, nothing scheduled: itself one of the schedules
+//   switch            requests as they come, one launch in which each shader loads and stores for
+//                     itself (GPU only: on a CPU, that is the schedule implicit)
 //   known-counts      bucket+explicit with counts that the host knows (GPU only)
 // The names of cells: set of shaders / kind of shaders / row / n: requests / run: mean length of a
 // stretch of one id. benchmark/ratios.py makes tables of them. On a few CPU cores, all of them take

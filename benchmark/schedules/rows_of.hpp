@@ -62,7 +62,8 @@ struct ways {
     });
   }
 
-  /// An oracle: one launch with a switch.
+  /// A launch with a switch, in which every shader loads and stores for itself: an oracle where the
+  /// requests lie sorted, and else a control.
   static void one_launch(view const& v) {
     auto const table = Kind::template table<Set>(v);
     for_each_request(v.n, switch_on_id<std::decay_t<decltype(table)>>{table, v.ids});
@@ -99,8 +100,10 @@ struct ways {
     add("sort+explicit", schedule<sort_then_dispatch<>>);
     add("bucket+implicit", schedule<bucket_then_dispatch<implicit_serialization>>);
     add("bucket+explicit", schedule<bucket_then_dispatch<>>);
-    // On a CPU, the host always knows the counts.
-    if (on_cuda) add("known-counts", known_counts);
+    if (on_cuda) {  // on a CPU, the host always knows the counts, and implicit is this switch
+      add("known-counts", known_counts);
+      add("switch", one_launch);
+    }
     add("local-bitonic", schedule<local_sort_then_dispatch<bitonic>>);
     add("local", schedule<local_sort_then_dispatch<>>);
     add("window", schedule<window_sort_then_dispatch>);

@@ -91,4 +91,10 @@ struct staging_if_small<true, Shaders...> : common_records<present_shaders<Shade
 template <class... Shaders>
 using staging = staging_if_small<sizeof...(Shaders) <= 16, Shaders...>;
 
+/// The first shader that `only` has not left out of a table.
+template <class... Shaders>
+DEFERRED_SHADE_HOST_DEVICE auto const& first_of(shader_table<Shaders...> const& shaders) {
+  return shaders.template get<shader_table<Shaders...>::first_id()>();
+}
+
 }  // namespace deferred_shade::detail

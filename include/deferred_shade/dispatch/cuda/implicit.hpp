@@ -4,8 +4,13 @@
 #include <thrust/binary_search.h>
 #include <thrust/execution_policy.h>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <new>
 
 #include <deferred_shade/cuda/launch.hpp>
+#include <deferred_shade/cuda/staging.hpp>
+#include <deferred_shade/records.hpp>
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/system.hpp>
 #include <deferred_shade/types.hpp>
@@ -22,6 +27,40 @@ __global__ void switch_kernel(Count n, Ids ids,
   if (p < size_of(n)) shaders.run(shader_of(ids, i, sizeof...(Shaders)), i);
 }
 
+/// The same for record shaders: all lanes load their requests at a time and store their results at
+/// a time, and only the functions take turns. `one_place`: the shaders' sources are the same, and
+/// so are their sinks; else loads and stores take turns as well.
+template <class Count, class Ids, class... Shaders>
+__global__ void records_kernel(Count n, Ids ids,
+                               shader_table<Shaders...> const __grid_constant__ shaders,
+                               bool one_place) {
+  using request = typename staging<Shaders...>::request;
+  using result = typename staging<Shaders...>::result;
+  begin_after_earlier_kernels();
+  std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
+  if (p >= size_of(n)) return;
+  auto const i = static_cast<request_index>(p);
+  shader_id const id = shader_of(ids, i, sizeof...(Shaders));
+  constexpr std::uint32_t present = present_bits<Shaders...>;
+  if ((present >> id & 1U) == 0) return;
+
+  auto const at_place = [&](auto const& f) {
+    if (one_place) {
+      f(first_of(shaders));
+    } else {
+      shaders.visit(id, f);
+    }
+  };
+  alignas(request) unsigned char in[sizeof(request)];
+  alignas(result) unsigned char out[sizeof(result)];
+  at_place([&](auto const& shader) { new (in) request(load(shader.source, i)); });
+  shaders.visit(id, [&](auto const& shader) {
+    new (out) result(shader.function(*reinterpret_cast<request const*>(in)));
+  });
+  at_place(
+      [&](auto const& shader) { store(shader.sink, i, *reinterpret_cast<result const*>(out)); });
+}
+
 /// Runs the requests of a grouping through the shaders of their segments.
 template <class... Shaders>
 __global__ void segments_kernel(request_index const* permutation, request_index const* offsets,
@@ -36,12 +75,31 @@ __global__ void segments_kernel(request_index const* permutation, request_index 
 
 inline constexpr std::uint32_t switch_threads = 256;
 
+/// Whether the shaders of a table load from one place and store to one.
+template <class... Shaders>
+bool have_one_place(shader_table<Shaders...> const& shaders) {
+  auto const same = [](auto const& a, auto const& b) {
+    return std::memcmp(&a, &b, sizeof(a)) == 0;  // for all their types may lack a comparison
+  };
+  auto const& first = first_of(shaders);
+  bool result = true;
+  shaders.for_each([&](auto, auto const& shader) {
+    result = result && same(shader.source, first.source) && same(shader.sink, first.sink);
+  });
+  return result;
+}
+
 template <class Policy, class Count, class Ids, class... Shaders>
 void run_implicit(cuda_system, Policy const& exec, Count n, Ids ids,
                   shader_table<Shaders...> const& shaders) {
-  launch<&switch_kernel<Count, Ids, Shaders...>>(
-      "implicit_serialization", stream_of(exec),
-      {blocks_for(maximum_of(n), switch_threads), switch_threads}, n, ids, shaders);
+  launch_shape const shape{blocks_for(maximum_of(n), switch_threads), switch_threads};
+  if constexpr (staging<Shaders...>::possible) {
+    launch<&records_kernel<Count, Ids, Shaders...>>(
+        "implicit_serialization", stream_of(exec), shape, n, ids, shaders, have_one_place(shaders));
+  } else {
+    launch<&switch_kernel<Count, Ids, Shaders...>>("implicit_serialization", stream_of(exec), shape,
+                                                   n, ids, shaders);
+  }
 }
 
 template <class Policy, class... Shaders>

@@ -22,11 +22,6 @@ namespace deferred_shade::detail {
 template <class... Shaders>
 inline constexpr std::uint32_t staged_threads = sizeof...(Shaders) <= 8 ? 128 : 512;
 
-template <class... Shaders>
-DEFERRED_SHADE_HOST_DEVICE auto const& first_of(shader_table<Shaders...> const& shaders) {
-  return shaders.template get<shader_table<Shaders...>::first_id()>();
-}
-
 /// One tile of record shaders: requests are loaded into shared memory in the order in which they
 /// lie, shaded in the order of their shaders, and the results, which take the place of the
 /// requests, are stored in the order in which they lie. `one_source`: all shaders have the same
