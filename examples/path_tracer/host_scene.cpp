@@ -13,8 +13,12 @@ std::vector<float> srgb_table() {
 
 }  // namespace
 
-host_scene::host_scene(scene const& s)
-    : source(s), hierarchy(build_bvh(s.triangles, s.motion)), lights(s), linear(srgb_table()) {}
+host_scene::host_scene(scene const& s, accuracy_settings const& accuracy)
+    : source(s),
+      hierarchy(build_bvh(s.triangles, s.motion)),
+      lights(s, accuracy.light),
+      octaves(static_cast<int>(accuracy.octaves)),
+      linear(srgb_table()) {}
 
 scene_view host_scene::view() const {
   return {hierarchy.view(),
@@ -27,7 +31,8 @@ scene_view host_scene::view() const {
           source.background,
           {source.medium_scattering, source.medium_scattering + source.medium_absorption,
            source.medium_anisotropy},
-          source.motion.empty() ? nullptr : source.motion.data()};
+          source.motion.empty() ? nullptr : source.motion.data(),
+          octaves};
 }
 
 }  // namespace path_tracer

@@ -66,6 +66,22 @@ class integrator {
 
   template <class Schedule>
   render_result run(Schedule const& schedule, progress_function const& progress) {
+    switch (settings_.accuracy.sums) {
+      case summation::in_float:
+        return run_with<pixel_sum<summation::in_float>>(schedule, progress);
+      case summation::compensated:
+        return run_with<pixel_sum<summation::compensated>>(schedule, progress);
+      default:
+        return run_with<pixel_sum<summation::in_double>>(schedule, progress);
+    }
+  }
+
+ private:
+  using stopwatch = typename Backend::stopwatch;
+  using clock = std::chrono::steady_clock;
+
+  template <class Sum, class Schedule>
+  render_result run_with(Schedule const& schedule, progress_function const& progress) {
     auto const start = clock::now();
     std::uint64_t const pixels = std::uint64_t{settings_.width} * settings_.height;
     std::uint64_t const items = pixels * settings_.samples;
@@ -75,7 +91,8 @@ class integrator {
     wave.seed = settings_.seed;
     wave.pixels = static_cast<std::uint32_t>(pixels);
     wave.max_depth = settings_.max_depth;
-    auto sums = backend_.template make_array<glm::dvec3>(pixels);
+    wave.roulette_from = settings_.accuracy.roulette_from;
+    auto sums = backend_.template make_array<Sum>(pixels);
     scratch_.reserve(wave_size, shader_count);
     if (settings_.statistics)
       aside([&] { warm_up(schedule, wave, static_cast<std::uint32_t>(wave_size)); });
@@ -83,13 +100,13 @@ class integrator {
       auto const paths = static_cast<std::uint32_t>(glm::min(wave_size, items - wave.first));
       trace_wave(schedule, wave, paths);
       auto const touched = static_cast<std::uint32_t>(glm::min(pixels, std::uint64_t{paths}));
-      for_all(touched, accumulate_samples{wave, paths, data_of(sums)});
+      for_all(touched, accumulate_samples<Sum>{wave, paths, data_of(sums)});
       result_.discarded_samples += sum_over(paths, count_discarded{wave});
       if (progress) progress(static_cast<double>(wave.first + paths) / static_cast<double>(items));
     }
     result_.pixels.reserve(pixels);
-    for (glm::dvec3 const& sum : backend_.to_host(std::move(sums)))
-      result_.pixels.emplace_back(sum / double(settings_.samples));
+    for (Sum const& sum : backend_.to_host(std::move(sums)))
+      result_.pixels.emplace_back(glm::dvec3(sum.total) / double(settings_.samples));
     for (bounce& b : result_.bounces) {
       b.shade_ms = b.total_ms - b.group_ms;
       aside_seconds_ += 1e-3 * b.group_ms;
@@ -97,10 +114,6 @@ class integrator {
     result_.seconds = seconds_since(start) - aside_seconds_;
     return std::move(result_);
   }
-
- private:
-  using stopwatch = typename Backend::stopwatch;
-  using clock = std::chrono::steady_clock;
 
   static double seconds_since(clock::time_point start) {
     return std::chrono::duration<double>(clock::now() - start).count();

@@ -38,7 +38,7 @@ void build_alias_table(std::vector<light_entry>& entries, std::vector<double> po
 
 }  // namespace
 
-light_list::light_list(scene const& s) {
+light_list::light_list(scene const& s, estimator how) : how_(how) {
   vec3 lower{0}, upper{0};
   if (!s.triangles.empty()) lower = upper = s.triangles[0].position[0];
   std::vector<double> power;
@@ -49,7 +49,8 @@ light_list::light_list(scene const& s) {
       upper = glm::max(upper, p);
     }
     material const& m = s.materials[t.material];
-    double const w = m.kind == shader_of<effects::emitters> ? double{radiosity(m)} * area(t) : 0;
+    if (how == estimator::bsdf || m.kind != shader_of<effects::emitters>) continue;
+    double const w = double{radiosity(m)} * area(t);
     if (!(w > 0)) continue;
     entries_.push_back({1, 0, 0, i});
     power.push_back(w);
@@ -74,7 +75,8 @@ light_list::light_list(scene const& s) {
     power.push_back(w);
   }
   sky_entry_ = static_cast<std::uint32_t>(entries_.size());
-  if (double const w = pi * radius * radius * list_sky(s); w > 0) {
+  double const sky = how == estimator::bsdf ? 0 : list_sky(s);
+  if (double const w = pi * radius * radius * sky; w > 0) {
     entries_.push_back({1, 0, 0, 0});
     power.push_back(w);
   }
@@ -129,6 +131,7 @@ light_view light_list::view(scene const& s) const {
   result.sky_entries = sky_entries_.data();
   result.per_power = per_power_;
   result.far_away = far_away_;
+  result.how = how_;
   return result;
 }
 

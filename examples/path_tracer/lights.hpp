@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "accuracy.hpp"
 #include "environment_map.hpp"
 #include "math.hpp"
 #include "motion.hpp"
@@ -35,6 +36,7 @@ struct light_view {
   environment_view sky;
   light_entry const* sky_entries;  ///< one for each of its texels
   float per_power;                 ///< probability of a light per unit of its power
+  estimator how;                   ///< which of two ways to find a light counts
   float far_away;                  ///< a distance that leaves the scene from anywhere in it
 };
 
@@ -42,8 +44,9 @@ struct light_view {
 class light_list {
  public:
   light_list() = default;
-  /// Picks each light in proportion to the power that it gives off.
-  explicit light_list(scene const& s);
+  /// Picks each light in proportion to the power that it gives off. Without those that an
+  /// estimator does not sample.
+  explicit light_list(scene const& s, estimator how = estimator::mis);
   /// The scene is the one that it was made of.
   light_view view(scene const& s) const;
 
@@ -51,6 +54,7 @@ class light_list {
   std::vector<light_entry> entries_, sky_entries_;
   std::uint32_t triangle_count_ = 0, sky_entry_ = 0;
   float per_power_ = 0, far_away_ = 0;
+  estimator how_ = estimator::mis;
 
   /// Fills sky_entries_; returns the integral of the environment's luminance over all directions.
   double list_sky(scene const& s);
@@ -195,6 +199,19 @@ PT_HD light_sample sample_light(light_view const& lights, vec3 p, light_draws co
 PT_HD inline float power_heuristic(float a, float b) {
   float const ratio = b / a;
   return 1 / (1 + ratio * ratio);
+}
+
+/// The weight of a light sample of density `light`, in a direction that the BSDF takes with density
+/// `bsdf`.
+PT_HD inline float weight_of_light(estimator how, float light, float bsdf) {
+  return how == estimator::mis ? power_heuristic(light, bsdf) : 1.0f;
+}
+
+/// The weight of light that was found by a BSDF sample of density `bsdf`, where light samples have
+/// the density `light`.
+PT_HD inline float weight_of_bsdf(estimator how, float bsdf, float light) {
+  if (how == estimator::mis) return power_heuristic(bsdf, light);
+  return how == estimator::light && light > 0 ? 0.0f : 1.0f;
 }
 
 }  // namespace path_tracer

@@ -61,15 +61,17 @@ PT_HD inline float turbulence(vec3 p, int octaves) {
 }
 
 /// Veins across x, bent by turbulence: 1 in a vein, 0 between two; one vein per unit of x.
-PT_HD inline float marble_pattern(vec3 p) {
-  float const wave = std::fabs(std::sin(pi * (p.x + 1.5f * turbulence(p, 5))));
+PT_HD inline float marble_pattern(vec3 p, int octaves) {
+  float const wave =
+      std::fabs(std::sin(pi * (p.x + 1.5f * turbulence(p, octaves < 5 ? octaves : 5))));
   return (1 - wave) * (1 - wave);
 }
 
 /// Rings about the y axis, one per unit of radius: 0 where a ring begins, 1 where it ends, with
 /// fine grain along y.
-PT_HD inline float wood_pattern(vec3 p) {
-  float const radius = std::sqrt(p.x * p.x + p.z * p.z) + 0.4f * fbm(p * vec3{1, 0.25f, 1}, 3);
+PT_HD inline float wood_pattern(vec3 p, int octaves) {
+  float const radius = std::sqrt(p.x * p.x + p.z * p.z) +
+                       0.4f * fbm(p * vec3{1, 0.25f, 1}, octaves < 3 ? octaves : 3);
   float const ring = radius - std::floor(radius);
   float const grain = 0.15f * gradient_noise(p * vec3{20, 1, 20});
   return glm::clamp(ring * ring + grain, 0.0f, 1.0f);

@@ -104,6 +104,21 @@ void declare(CLI::App& app, options& o) {
         ->type_name("N");
   };
 
+  auto const choice = [&](char const* name, auto& value, auto const& list,
+                          std::string const& help) {
+    std::vector<std::string> const names(std::begin(list), std::end(list));
+    using type = std::decay_t<decltype(value)>;
+    auto const take = [&value, names](std::string const& given) {
+      auto const found = std::find(names.begin(), names.end(), given);
+      value = static_cast<type>(found - names.begin());
+    };
+    app.add_option_function<std::string>(
+           name, take,
+           help + ": " + join(names) + " [" + names[static_cast<std::size_t>(value)] + "]")
+        ->check(one_of(names))
+        ->type_name("NAME");
+  };
+
   text("scene", o.scene, "glTF 2.0 scene, .gltf or .glb")->required()->type_name("FILE");
 
   app.option_defaults()->group("Picture");
@@ -115,6 +130,15 @@ void declare(CLI::App& app, options& o) {
   number("--spp", s.samples, 1, most_samples, "Samples per pixel");
   number("--max-depth", s.max_depth, 1, deepest, "Surface hits of a path at most");
   number("--seed", s.seed, 0, UINT64_MAX, "Seed of the random numbers");
+
+  app.option_defaults()->group("Accuracy");
+  accuracy_settings& a = s.accuracy;
+  choice("--estimator", a.light, estimator_names,
+         "How light is found: by sampling both lights and BSDFs, or one\nof them");
+  number("--roulette", a.roulette_from, 1, deepest,
+         "Surface hit from which on paths may end at random");
+  choice("--sums", a.sums, summation_names, "How samples are added up");
+  number("--octaves", a.octaves, 1, 16, "Octaves of procedural textures at most");
 
   app.option_defaults()->group("Execution");
   text("--backend", s.backend, "Where to run: " + join(backend_names))

@@ -32,6 +32,7 @@ struct basic_wave {
   std::uint32_t pixels;
   std::uint32_t bounce;  ///< 0 for rays from the camera
   std::uint32_t max_depth;
+  std::uint32_t roulette_from;  ///< the surface hit from which on paths may end at random
 
   PT_HD std::uint32_t pixel(std::uint32_t i) const {
     return static_cast<std::uint32_t>((first + i) % pixels);

@@ -85,7 +85,7 @@ render_result render(scene const& s, render_settings const& settings,
     throw std::invalid_argument("unknown backend \"" + settings.backend + "\"");
   check(s, settings);
   std::size_t const variant = std::min<std::size_t>(settings.variant, PATH_TRACER_VARIANTS - 1);
-  return chosen->render[variant](host_scene(s), settings, progress);
+  return chosen->render[variant](host_scene(s, settings.accuracy), settings, progress);
 }
 
 }  // namespace path_tracer

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "accuracy.hpp"
 #include "scene.hpp"
 
 namespace path_tracer {
@@ -18,6 +19,7 @@ struct render_settings {
   std::uint32_t samples = 16;    ///< per pixel
   std::uint32_t max_depth = 16;  ///< surface hits of a path at most
   std::uint64_t seed = 1;
+  accuracy_settings accuracy;
   std::string backend = "omp";     ///< one of backends()
   std::string schedule = "local";  ///< one of schedules()
   unsigned threads = 0;            ///< of the CPU; 0: as many as it has

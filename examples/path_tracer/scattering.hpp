@@ -18,7 +18,7 @@ struct surface_shader<effects::medium, Set> {
     if constexpr (has_lights<Set>) add_light(i, throughput);
     float survival = 1;
     random_stream const random = wave.random(i);
-    if (wave.bounce + 1 >= roulette_start) {
+    if (wave.bounce + 1 >= wave.roulette_from) {
       survival = glm::min(0.95f, max_component(throughput));
       if (random.pair(pair_of(draw::lobe_and_roulette, wave.bounce)).y >= survival) return;
     }
@@ -38,7 +38,7 @@ struct surface_shader<effects::medium, Set> {
     light_sample const l = sample_light<Set>(scene.lights, p, draws_of_light<Set>(wave, i));
     if (!(l.pdf > 0)) return;
     float const density = phase(scene.medium.anisotropy, glm::dot(l.wi, wave.direction[i]));
-    float const weight = l.delta ? 1.0f : power_heuristic(l.pdf, density);
+    float const weight = l.delta ? 1.0f : weight_of_light(scene.lights.how, l.pdf, density);
     vec3 const end = p + l.wi * l.distance;
     wave.shadow_origin[i] = p;
     wave.shadow_vector[i] = (l.delta ? end : offset_point(end, l.normal)) - p;

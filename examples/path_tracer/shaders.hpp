@@ -9,9 +9,6 @@
 
 namespace path_tracer {
 
-/// From this bounce on a path survives with a probability, and its throughput makes up for it.
-inline constexpr std::uint32_t roulette_start = 3;
-
 /// What a shader knows of a hit when it makes its BSDF. `Set`: the effects that may occur.
 template <class Set>
 struct shading_point {
@@ -78,7 +75,7 @@ PT_HD inline void add_emission(basic_wave const& wave, scene_view const& scene, 
     vec3 const d = s.position - wave.origin[i];
     float const cos_light = -glm::dot(wave.direction[i], s.geometric);
     float const pdf = light_pdf(scene.lights, m, glm::dot(d, d), cos_light) * area_ratio;
-    weight = power_heuristic(wave.pdf[i], pdf);
+    weight = weight_of_bsdf(scene.lights.how, wave.pdf[i], pdf);
   }
   wave.radiance[i] += wave.throughput[i] * m.emission * weight;
 }
@@ -117,7 +114,7 @@ PT_HD void sample_lights(basic_wave const& wave, scene_view const& scene, std::u
   vec3 const wi = s.to_local(l.wi);
   if (!s.consistent(wi, l.wi)) return;
   bsdf_value const v = bsdf.value(s.wo, wi);
-  float const weight = l.delta ? 1.0f : power_heuristic(l.pdf, v.pdf);
+  float const weight = l.delta ? 1.0f : weight_of_light(scene.lights.how, l.pdf, v.pdf);
   vec3 const light = wave.throughput[i] * v.f_cos * arriving<Set>(scene, l) * (weight / l.pdf);
   if (light == vec3{0}) return;
   vec3 const origin = s.start_towards(l.wi);
@@ -140,7 +137,7 @@ PT_HD void extend_path(basic_wave const& wave, std::uint32_t i, surface const& s
   vec3 const wi = s.to_world(b.wi);
   wave.throughput[i] = vec3{0};
   if (!s.consistent(b.wi, wi)) return;
-  if (wave.bounce + 1 >= roulette_start) {
+  if (wave.bounce + 1 >= wave.roulette_from) {
     float const survival = glm::min(0.95f, max_component(throughput));
     if (v.y >= survival) return;
     throughput /= survival;
@@ -195,7 +192,8 @@ struct miss_shader {
       if (scene.lights.sky.width > 0) {
         vec2 const uv = scene.lights.sky.coordinates(wave.direction[i]);
         float const pdf = wave.pdf[i];
-        float const weight = pdf > 0 ? power_heuristic(pdf, sky_pdf(scene.lights, uv)) : 1.0f;
+        float const weight =
+            pdf > 0 ? weight_of_bsdf(scene.lights.how, pdf, sky_pdf(scene.lights, uv)) : 1.0f;
         radiance += weight * scene.lights.sky.radiance(uv);
       }
     }

@@ -4,6 +4,7 @@
 #include <deferred_shade/types.hpp>
 
 #include "path.hpp"
+#include "sums.hpp"
 #include "surface.hpp"
 
 namespace path_tracer {
@@ -135,18 +136,19 @@ PT_HD inline bool is_finite(vec3 c) {
   return total - total == 0;
 }
 
-/// Adds the samples that a wave has of a pixel to its sum, in the order of the samples and in
-/// double, so that the picture does not depend on the size of a wave. Leaves out samples that are
-/// not finite. Runs over the pixels of the wave, at most one per path.
+/// Adds the samples that a wave has of a pixel to its sum, in the order of the samples, so that the
+/// picture does not depend on the size of a wave. Leaves out samples that are not finite. Runs over
+/// the pixels of the wave, at most one per path.
+template <class Sum>
 struct accumulate_samples {
   basic_wave wave;
   std::uint32_t paths;
-  glm::dvec3* sums;
+  Sum* sums;
 
   PT_HD void operator()(request_index i) const {
-    glm::dvec3& sum = sums[wave.pixel(i)];
+    Sum& sum = sums[wave.pixel(i)];
     for (std::uint64_t k = i; k < paths; k += wave.pixels)
-      if (is_finite(wave.radiance[k])) sum += glm::dvec3(wave.radiance[k]);
+      if (is_finite(wave.radiance[k])) sum.add(wave.radiance[k]);
   }
 };
 

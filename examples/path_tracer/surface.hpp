@@ -24,6 +24,7 @@ struct scene_view {
   vec3 background;
   medium_view medium;
   triangle_motion const* motion;  ///< null: nothing moves
+  int octaves;                    ///< of procedural textures, at most
 };
 
 /// A point at a distance from the plane of a triangle on the side of `normal`, far enough for a ray

@@ -57,7 +57,7 @@ TEST_CASE("turbulence bounds fbm, and patterns stay within [0, 1] and vary", "[n
     float const t = turbulence(p, 4);
     REQUIRE(t >= 0);
     REQUIRE(std::abs(fbm(p, 4)) <= t + 1e-6f);
-    float const patterns[2] = {marble_pattern(p), wood_pattern(p)};
+    float const patterns[2] = {marble_pattern(p, 16), wood_pattern(p, 16)};
     for (int k = 0; k < 2; ++k) {
       low[k] = std::min(low[k], patterns[k]);
       high[k] = std::max(high[k], patterns[k]);

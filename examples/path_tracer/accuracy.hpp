@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace path_tracer {
+
+/// How light from surfaces and the environment is found: by sampling lights and BSDFs, weighed
+/// against each other (Veach 1997, section 9.2), or by one of them alone. Punctual lights are
+/// sampled, and what mirrors and smooth glass show is found, whatever this says.
+enum class estimator : std::uint8_t { mis, bsdf, light };
+inline constexpr char const* estimator_names[] = {"mis", "bsdf", "light"};
+
+/// How the samples of a pixel are added up.
+enum class summation : std::uint8_t { in_double, compensated, in_float };
+inline constexpr char const* summation_names[] = {"double", "compensated", "float"};
+
+/// What a picture may give up of its accuracy, for time: nothing, as constructed, that a larger
+/// number of samples does not bring back, but for the depth of its paths (docs/accuracy.md).
+struct accuracy_settings {
+  estimator light = estimator::mis;
+  summation sums = summation::in_double;
+  /// From this surface hit on a path survives with a probability, and its throughput makes up for
+  /// it.
+  std::uint32_t roulette_from = 3;
+  /// Octaves that procedural textures have at most.
+  std::uint32_t octaves = 16;
+};
+
+}  // namespace path_tracer

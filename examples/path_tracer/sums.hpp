@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "accuracy.hpp"
+#include "math.hpp"
+
+namespace path_tracer {
+
+/// The sum of a pixel's samples, one type for each way to add them up; starts at 0.
+template <summation How>
+struct pixel_sum;
+
+template <>
+struct pixel_sum<summation::in_double> {
+  glm::dvec3 total{0};
+  PT_HD void add(vec3 v) { total += glm::dvec3(v); }
+};
+
+template <>
+struct pixel_sum<summation::in_float> {
+  vec3 total{0};
+  PT_HD void add(vec3 v) { total += v; }
+};
+
+/// Keeps what rounding takes away, and gives it back with the next sample (Kahan 1965).
+template <>
+struct pixel_sum<summation::compensated> {
+  vec3 total{0}, lost{0};
+  PT_HD void add(vec3 v) {
+    vec3 const due = v - lost;
+    vec3 const next = total + due;
+    lost = (next - total) - due;
+    total = next;
+  }
+};
+
+}  // namespace path_tracer
