@@ -31,11 +31,11 @@ except ImportError:
     flip_evaluator = None
 
 REFERENCE_SEEDS = (1000001, 1000002)
-BASE = {"spp": 16, "max-depth": 16, "roulette": 3, "estimator": "mis", "sums": "double", "octaves": 16}
+BASE = {"spp": 16, "max-depth": 16, "roulette": 5, "estimator": "mis", "sums": "double", "octaves": 16}
 ONE_AT_A_TIME = {
     "spp": [1, 2, 4, 8, 16, 32, 64, 128],
     "max-depth": [2, 3, 4, 6, 8, 32],
-    "roulette": [1, 2, 5, 8, 64],
+    "roulette": [1, 2, 3, 8, 64],
     "estimator": ["bsdf", "light"],
     "sums": ["compensated", "float"],
     "octaves": [1, 2, 3],
@@ -124,7 +124,8 @@ def measure(arguments, scene, setting, truth, truth_error):
     variance = float(numpy.mean(pictures.var(axis=0, ddof=1) / relative))
     distance = float(numpy.mean((pictures.mean(axis=0) - truth) ** 2 / relative))
     result = {
-        "scene": scene.stem, "setting": setting, "seeds": arguments.seeds,
+        "scene": scene.stem, "setting": setting,
+        "changes": {knob: value for knob, value in setting.items() if BASE[knob] != value}, "seeds": arguments.seeds,
         "seconds": statistics.median(seconds), "seconds_spread": max(seconds) - min(seconds),
         "relative_mse": statistics.mean(errors),
         "relative_variance": variance,
@@ -168,8 +169,7 @@ def main():
         for name in names:
             forget(arguments, name)
         left = (time.monotonic() - start) / (k + 1) * (len(wanted) - k - 1)
-        changes = {a: b for a, b in setting.items() if BASE[a] != b}
-        print(f"{k + 1}/{len(wanted)} {scene.stem} {changes}: {result['relative_mse']:.3g} in "
+        print(f"{k + 1}/{len(wanted)} {scene.stem} {result['changes']}: {result['relative_mse']:.3g} in "
               f"{result['seconds']:.3f} s; {left:.0f} s to go", flush=True)
 
 

@@ -93,6 +93,7 @@ def table(path):
               f"{100 * statistics.median(spreads):.0f} %, the largest {100 * max(spreads):.0f} %.")
 
 
+PLOTTED = ("implicit", "explicit", "bucket+explicit", "local", "window")
 STYLE = """<style>
 text{font:13px sans-serif;fill:#222} .light{fill:#666} line{stroke:#888} .a{fill:#0072b2} .b{fill:#e69f00}
 @media (prefers-color-scheme:dark){text{fill:#eee} .light{fill:#aaa}}
@@ -100,7 +101,7 @@ text{font:13px sans-serif;fill:#222} .light{fill:#666} line{stroke:#888} .a{fill
 
 
 def plot(path, results):
-    """Bars of shading, all over auto, for each scene and schedule of all results; a colour for each of two."""
+    """Bars of shading, all over auto, for each scene and some schedules; a colour for each of two results."""
     runs = []
     for name in results:
         with open(name, encoding="utf-8") as file:
@@ -110,7 +111,7 @@ def plot(path, results):
         for run in result["runs"]:
             into.setdefault((run["scene"], run["schedule"], run["effects"]), []).append(run["shade_ms"])
     pairs = [p for p in dict.fromkeys((r["scene"], r["schedule"]) for r in runs[0]["runs"])
-             if all((*p, "all") in into for into in times)]
+             if p[1] in PLOTTED and all((*p, "all") in into for into in times)]
     row, left, unit = 9 * len(runs) + 6, 190, 150
     height = 40 + row * len(pairs)
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="720" height="{height + 20}" role="img">', STYLE]

@@ -22,7 +22,7 @@ struct accuracy_settings {
   summation sums = summation::in_double;
   /// From this surface hit on a path survives with a probability, and its throughput makes up for
   /// it.
-  std::uint32_t roulette_from = 3;
+  std::uint32_t roulette_from = 5;
   /// Octaves that procedural textures have at most.
   std::uint32_t octaves = 16;
 };

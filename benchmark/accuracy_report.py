@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Tables and plots of what benchmark/accuracy.py has measured.
+
+    benchmark/accuracy_report.py table RESULT.jsonl
+    benchmark/accuracy_report.py plot PLOT.svg RESULT.jsonl
+    benchmark/accuracy_report.py schedules RESULT.jsonl REPORT.json...
+
+`table` prints Markdown: for every scene what each setting takes and gives, the slope of the convergence, and what
+a digit costs. `plot` draws error against time, a panel for each scene, with the settings that no other beats in
+both joined by a line. `schedules` takes reports of `path_tracer --schedule all` over the same scenes and prints
+the seconds in which each schedule reaches a relative error of 1 %: as schedules change no bit, that is its time per
+sample times the samples which that takes.
+"""
+import json
+import math
+import pathlib
+import sys
+
+
+def read(path):
+    lines = pathlib.Path(path).read_text(encoding="utf-8").splitlines()
+    scenes = {}
+    for result in map(json.loads, lines):
+        scenes.setdefault(result["scene"], []).append(result)
+    return scenes
+
+
+def name(result):
+    return ", ".join(f"{k} {v}" for k, v in result["changes"].items()) or "the defaults"
+
+
+def only_samples_differ(results):
+    """(samples, result) of the settings that differ from the base in samples alone, in their order."""
+    return sorted(((r["setting"]["spp"], r) for r in results if set(r["changes"]) <= {"spp"}), key=lambda pair: pair[0])
+
+
+def line_through(points):
+    """Slope and value at 0 of the least-squares line."""
+    n = len(points)
+    mx, my = sum(x for x, _ in points) / n, sum(y for _, y in points) / n
+    slope = sum((x - mx) * (y - my) for x, y in points) / sum((x - mx) ** 2 for x, _ in points)
+    return slope, my - slope * mx
+
+
+def samples_for(results, error):
+    """The samples per pixel that bring the variance to error^2: it is that of one sample over their number."""
+    per_sample = [spp * r["relative_variance"] for spp, r in only_samples_differ(results)]
+    return sorted(per_sample)[len(per_sample) // 2] / error ** 2
+
+
+def seconds_for(results, spp):
+    slope, fixed = line_through([(spp, r["seconds"]) for spp, r in only_samples_differ(results)])
+    return max(fixed, 0) + slope * spp
+
+
+def table(path):
+    for scene, results in read(path).items():
+        first = results[0]
+        base = next((r for r in results if not r["changes"]), first)
+        print(f"### {scene}\n\n{first['machine']}, commit {first['commit']}, backend {first['backend']}, "
+              f"{first['width']} x {first['height']}, {first['seeds']} seeds. Reference: {first['reference_spp']} samples, "
+              f"its own relative error {100 * math.sqrt(first['reference_mse']):.2g} %.\n")
+        print("| setting | seconds | spread | error | variance | bias² | 99.9 % below | FLIP | efficiency |")
+        print("|---" * 9 + "|")
+        for r in sorted(results, key=lambda r: (len(r["changes"]), name(r).split()[0], r["seconds"])):
+            shown = "" if r["flip"] is None else f"{r['flip']:.3f}"
+            print(f"| {name(r)} | {r['seconds']:.3f} | {100 * r['seconds_spread'] / r['seconds']:.0f} % "
+                  f"| {100 * math.sqrt(r['relative_mse']):.2g} % | {r['relative_variance']:.2g} "
+                  f"| {r['relative_bias2']:.1g} | {r['p999']:.2g} | {shown} "
+                  f"| {r['efficiency'] / base['efficiency']:.2f} |")
+        slope, _ = line_through([(math.log(spp), math.log(r["relative_variance"]))
+                                 for spp, r in only_samples_differ(results)])
+        print(f"\nThe variance falls with the samples to the power of {slope:.2f}.\n")
+        print("| relative error | samples per pixel | seconds |\n|---|---|---|")
+        for error in (0.1, 0.01, 0.001):
+            spp = samples_for(results, error)
+            print(f"| {100 * error:g} % | {spp:.3g} | {seconds_for(results, spp):.3g} |")
+        print()
+
+
+def front(results):
+    """The results that no other beats in time and error, fastest first."""
+    found, least = [], math.inf
+    for r in sorted(results, key=lambda r: r["seconds"]):
+        if r["relative_mse"] < least:
+            least = r["relative_mse"]
+            found.append(r)
+    return found
+
+
+STYLE = """<style>
+text{font:12px sans-serif;fill:#222} .light{fill:#666} .axis{stroke:#888;fill:none} .front{stroke:#0072b2;fill:none;
+stroke-width:1.5} .on{fill:#0072b2} .off{fill:none;stroke:#e69f00;stroke-width:1.5}
+@media (prefers-color-scheme:dark){text{fill:#eee} .light{fill:#aaa}}
+</style>"""
+
+
+def panel(scene, results, x0, y0, width, height):
+    times = [math.log10(r["seconds"]) for r in results]
+    errors = [math.log10(r["relative_mse"]) / 2 for r in results]
+    low_x, high_x, low_y, high_y = min(times), max(times), min(errors), max(errors)
+
+    def at(r):
+        x = (math.log10(r["seconds"]) - low_x) / (high_x - low_x)
+        y = (math.log10(r["relative_mse"]) / 2 - low_y) / (high_y - low_y)
+        return x0 + 8 + x * (width - 16), y0 + height - 8 - y * (height - 16)
+
+    best = front(results)
+    out = [f'<text x="{x0}" y="{y0 - 6}">{scene}</text>',
+           f'<rect class="axis" x="{x0}" y="{y0}" width="{width}" height="{height}"/>',
+           f'<text class="light" x="{x0}" y="{y0 + height + 14}">{10 ** low_x:.2g} s</text>',
+           f'<text class="light" x="{x0 + width}" y="{y0 + height + 14}" text-anchor="end">{10 ** high_x:.2g} s</text>',
+           f'<text class="light" x="{x0 - 4}" y="{y0 + 10}" text-anchor="end">{100 * 10 ** high_y:.2g} %</text>',
+           f'<text class="light" x="{x0 - 4}" y="{y0 + height}" text-anchor="end">{100 * 10 ** low_y:.2g} %</text>',
+           '<polyline class="front" points="' + " ".join("{:.1f},{:.1f}".format(*at(r)) for r in best) + '"/>']
+    for r in results:
+        x, y = at(r)
+        out.append(f'<circle class="{"on" if r in best else "off"}" cx="{x:.1f}" cy="{y:.1f}" r="3">'
+                   f"<title>{name(r)}: {100 * math.sqrt(r['relative_mse']):.2g} % in {r['seconds']:.3g} s</title></circle>")
+    return out
+
+
+def plot(path, result):
+    scenes = read(result)
+    width, height = 280, 200
+    out = []
+    for k, (scene, results) in enumerate(scenes.items()):
+        out += panel(scene, results, 60 + k % 2 * (width + 80), 30 + k // 2 * (height + 60), width, height)
+    rows = (len(scenes) + 1) // 2
+    head = f'<svg xmlns="http://www.w3.org/2000/svg" width="{2 * width + 160}" height="{rows * (height + 60) + 10}" role="img">'
+    pathlib.Path(path).write_text("\n".join([head, STYLE, *out]) + "\n</svg>\n", encoding="utf-8")
+
+
+def schedules(path, reports):
+    scenes = read(path)
+    rows, names = [], []
+    for report in reports:
+        run = json.loads(pathlib.Path(report).read_text(encoding="utf-8"))
+        scene = pathlib.Path(run["scene"]).stem
+        spp = samples_for(scenes[scene], 0.01)
+        names = [s["schedule"] for s in run["schedules"]]
+        seconds = [s["seconds"] / run["settings"]["spp"] * spp for s in run["schedules"]]
+        rows.append(f"| {scene} | {spp:.3g} | " + " | ".join(f"{s:.3g}" for s in seconds) + " |")
+    print("| scene | samples | " + " | ".join(f"`{n}`" for n in names) + " |\n" + "|---" * (len(names) + 2) + "|")
+    print("\n".join(rows))
+
+
+def main(arguments):
+    if arguments[:1] == ["table"] and len(arguments) == 2:
+        table(arguments[1])
+    elif arguments[:1] == ["plot"] and len(arguments) == 3:
+        plot(*arguments[1:])
+    elif arguments[:1] == ["schedules"] and len(arguments) > 2:
+        schedules(arguments[1], arguments[2:])
+    else:
+        sys.exit(__doc__)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
