@@ -37,6 +37,12 @@ inline void transpose(four_words (&rows)[4]) noexcept {
 }
 #endif
 
+/// Copies word number `word` of a record. No member of a template below: g++ 13 takes that of one
+/// record for that of another whose code is the same, and warns of the other's bounds.
+inline void copy_word(std::size_t word, void const* record, std::uint32_t& to) noexcept {
+  std::memcpy(&to, static_cast<unsigned char const*>(record) + 4 * word, 4);
+}
+
 /// `Size` records of type T, as arrays of their words.
 template <class T, std::size_t Size>
 class lanes {
@@ -52,7 +58,7 @@ class lanes {
   void set(std::size_t lane, T record) noexcept { set(lane, bits_as<words>(record), each_word()); }
   /// The same from memory, for a loop that is not vectorised.
   void copy(std::size_t lane, T const& record) noexcept {
-    for (std::size_t word = 0; word < count; ++word) copy_word(word, lane, record);
+    for (std::size_t word = 0; word < count; ++word) copy_word(word, &record, words_[word][lane]);
   }
   /// Four records to `lane` and the lanes after it.
   void copy(std::size_t lane, T const& a, T const& b, T const& c, T const& d) noexcept {
@@ -69,10 +75,10 @@ class lanes {
 #endif
     if constexpr (shuffled < count) {  // g++ warns of a loop that it knows to be empty
       for (std::size_t word = shuffled; word < count; ++word) {
-        copy_word(word, lane, a);
-        copy_word(word, lane + 1, b);
-        copy_word(word, lane + 2, c);
-        copy_word(word, lane + 3, d);
+        copy_word(word, &a, words_[word][lane]);
+        copy_word(word, &b, words_[word][lane + 1]);
+        copy_word(word, &c, words_[word][lane + 2]);
+        copy_word(word, &d, words_[word][lane + 3]);
       }
     }
   }
@@ -85,9 +91,6 @@ class lanes {
   template <std::size_t... Word>
   void set(std::size_t lane, words const& record, std::index_sequence<Word...>) noexcept {
     ((words_[Word][lane] = record.word[Word]), ...);
-  }
-  void copy_word(std::size_t word, std::size_t lane, T const& record) noexcept {
-    std::memcpy(&words_[word][lane], bytes_of(record) + 4 * word, 4);
   }
 #if DEFERRED_SHADE_HAS_SHUFFLE
   static four_words words_of(T const& record, std::size_t first) noexcept {
