@@ -69,7 +69,7 @@ struct light_sample {
   vec3 wi{0, 0, 1};  ///< unit direction to the light
   float distance = 0;
   vec3 radiance{0};    ///< or for a punctual light, what arrives per unit of solid angle 1
-  vec3 normal{0};      ///< of an emissive triangle, on the side of the point; else 0
+  vec3 clearance{0};   ///< from an emissive triangle to where a shadow ray can end, see motion.hpp
   float pdf = 0;       ///< per solid angle; of a punctual light, its probability
   bool delta = false;  ///< a punctual light: no other strategy can find it
 };
@@ -122,13 +122,14 @@ PT_HD inline light_sample sample_emitter(light_view const& lights, triangle cons
   if (!(d2 > 0)) return s;
   s.distance = std::sqrt(d2);
   s.wi = to_light / s.distance;
-  s.normal = glm::normalize(glm::cross(e1, e2));
-  float cos_light = -glm::dot(s.wi, s.normal);
+  vec3 normal = glm::normalize(glm::cross(e1, e2));
+  float cos_light = -glm::dot(s.wi, normal);
   if (cos_light < 0 && m.two_sided) {
     cos_light = -cos_light;
-    s.normal = -s.normal;
+    normal = -normal;
   }
   if (!(cos_light > 0)) return s;
+  s.clearance = normal * (clearance_of(t) + 4 * float_step * s.distance);
   s.radiance = m.emission;
   s.pdf = light_pdf(lights, m, d2, cos_light);
   return s;

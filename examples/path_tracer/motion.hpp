@@ -24,6 +24,20 @@ PT_HD inline triangle triangle_at(triangle t, triangle_motion const& m, float ti
   return t;
 }
 
+/// From 1 to the next float.
+inline constexpr float float_step = 0x1p-23f;
+
+/// How far from a point of a triangle, along the normal, a ray can start without meeting that
+/// triangle again: the rounding of the point goes with the size of its coordinates, that of the
+/// intersection with the extent of the triangle, whatever the angle.
+PT_HD inline float clearance_of(triangle const& t) {
+  vec3 const e1 = t.position[1] - t.position[0], e2 = t.position[2] - t.position[0];
+  vec3 const reach =
+      glm::max(glm::abs(t.position[0]), glm::max(glm::abs(t.position[1]), glm::abs(t.position[2])));
+  vec3 const extent = glm::max(glm::max(glm::abs(e1), glm::abs(e2)), glm::abs(e2 - e1));
+  return float_step * (2 * max_component(reach) + 16 * max_component(extent));
+}
+
 /// Triangle number `primitive` at a time, where `Set` has motion blur; else as it lies in memory.
 template <class Set>
 using loaded_triangle =

@@ -39,9 +39,8 @@ struct surface_shader<effects::medium, Set> {
     if (!(l.pdf > 0)) return;
     float const density = phase(scene.medium.anisotropy, glm::dot(l.wi, wave.direction[i]));
     float const weight = l.delta ? 1.0f : weight_of_light(scene.lights.how, l.pdf, density);
-    vec3 const end = p + l.wi * l.distance;
     wave.shadow_origin[i] = p;
-    wave.shadow_vector[i] = (l.delta ? end : offset_point(end, l.normal)) - p;
+    wave.shadow_vector[i] = l.wi * l.distance + l.clearance;
     wave.shadow_light[i] = throughput * density * arriving<Set>(scene, l) * (weight / l.pdf);
   }
 };

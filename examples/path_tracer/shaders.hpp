@@ -118,8 +118,7 @@ PT_HD void sample_lights(basic_wave const& wave, scene_view const& scene, std::u
   vec3 const light = wave.throughput[i] * v.f_cos * arriving<Set>(scene, l) * (weight / l.pdf);
   if (light == vec3{0}) return;
   vec3 const origin = s.start_towards(l.wi);
-  vec3 end = s.position + l.wi * l.distance;
-  if (!l.delta) end = offset_point(end, l.normal);
+  vec3 const end = s.position + l.wi * l.distance + l.clearance;
   wave.shadow_origin[i] = origin;
   wave.shadow_vector[i] = end - origin;
   wave.shadow_light[i] = light;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 
 #include "albedo.hpp"
 #include "bvh.hpp"
@@ -27,22 +26,6 @@ struct scene_view {
   int octaves;                    ///< of procedural textures, at most
 };
 
-/// A point at a distance from the plane of a triangle on the side of `normal`, far enough for a ray
-/// to start there without meeting the triangle again: some units in the last place of each
-/// coordinate, or a constant near the origin (Waechter and Binder, Ray Tracing Gems, chapter 6).
-PT_HD inline vec3 offset_point(vec3 p, vec3 normal) {
-  vec3 moved;
-  for (int k = 0; k < 3; ++k) {
-    auto const steps = static_cast<std::int32_t>(256.0f * normal[k]);
-    std::int32_t bits;
-    std::memcpy(&bits, &p[k], sizeof bits);
-    bits += p[k] < 0 ? -steps : steps;
-    std::memcpy(&moved[k], &bits, sizeof bits);
-    if (glm::abs(p[k]) < 1.0f / 32) moved[k] = p[k] + normal[k] * (1.0f / 65536);
-  }
-  return moved;
-}
-
 PT_HD inline vec3 geometric_normal(triangle const& t) {
   return glm::normalize(glm::cross(t.position[1] - t.position[0], t.position[2] - t.position[0]));
 }
@@ -51,6 +34,7 @@ PT_HD inline vec3 geometric_normal(triangle const& t) {
 struct surface {
   vec3 position;
   vec3 geometric;            ///< normal of the triangle, on the side of the viewer
+  float clearance;           ///< see clearance_of
   vec3 tangent, up, normal;  ///< the shading frame
   vec3 wo;                   ///< towards the viewer, in that frame; wo.z > 0
   vec2 uv;
@@ -67,7 +51,7 @@ struct surface {
     return local.z * glm::dot(world, geometric) > 0;
   }
   PT_HD vec3 start_towards(vec3 world) const {
-    return offset_point(position, glm::dot(world, geometric) > 0 ? geometric : -geometric);
+    return position + (glm::dot(world, geometric) > 0 ? clearance : -clearance) * geometric;
   }
 };
 
@@ -76,9 +60,11 @@ struct surface {
 PT_HD inline void set_frame(surface& s, vec3 n, vec3 hint) {
   s.normal = n;
   vec3 const t = hint - n * glm::dot(n, hint);
-  float const length2 = glm::dot(t, t);
-  if (length2 > 1e-12f * glm::dot(hint, hint) && length2 < INFINITY) {
+  float const length2 = glm::dot(t, t), hint2 = glm::dot(hint, hint);
+  if (length2 > 1e-12f * hint2 && length2 < INFINITY) {
     s.tangent = t / std::sqrt(length2);
+    if (length2 < 0.25f * hint2)  // what cancellation has left of n
+      s.tangent = glm::normalize(s.tangent - n * glm::dot(n, s.tangent));
   } else {
     float const sign = n.z < 0 ? -1.0f : 1.0f;
     float const a = -1 / (sign + n.z);
@@ -125,10 +111,12 @@ PT_HD surface load_surface(scene_view const& scene, loaded_triangle<Set> t, vec2
                            vec3 direction) {
   float const b0 = 1 - b.x - b.y;
   surface s;
-  s.position = b0 * t.position[0] + b.x * t.position[1] + b.y * t.position[2];
+  s.position = t.position[0] +
+               (b.x * (t.position[1] - t.position[0]) + b.y * (t.position[2] - t.position[0]));
   s.uv = b0 * t.uv[0] + b.x * t.uv[1] + b.y * t.uv[2];
   s.material = t.material;
   s.geometric = geometric_normal(t);
+  s.clearance = clearance_of(t);
   s.front = glm::dot(s.geometric, direction) < 0;
   vec3 n = b0 * t.normal[0] + b.x * t.normal[1] + b.y * t.normal[2];
   n = glm::dot(n, n) > 0 ? glm::normalize(n) : s.geometric;
