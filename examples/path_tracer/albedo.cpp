@@ -47,7 +47,7 @@ std::unique_ptr<albedo_tables> compute() {
     glm::dvec2 mean{0};
     for (int c = 0; c < cosines; ++c) {
       float const root = static_cast<float>(c) / (cosines - 1);
-      vec3 const wo = direction_at(glm::max(root * root, 1e-5f));
+      vec3 const wo = direction_at(glm::max(root * root, 1e-7f));
       tables->ggx_table[r][c] = integrate_ggx(wo, alpha_of(roughness), 24);
       tables->sheen_table[r][c] = integrate_sheen(wo, sheen_alpha(roughness), 24);
     }

@@ -25,7 +25,9 @@ inline constexpr float endless = 1e30f;
 
 /// The phase function of Henyey and Greenstein (1941), per solid angle; `cosine` is 1 straight on.
 PT_HD inline float phase(float anisotropy, float cosine) {
-  float const g = anisotropy, root = std::sqrt(glm::max(1 + g * g - 2 * g * cosine, 1e-8f));
+  // 1 + g^2 - 2 g cosine, without its cancellation near the peak.
+  float const g = std::fabs(anisotropy), c = anisotropy < 0 ? -cosine : cosine;
+  float const root = std::sqrt(glm::max((1 - g) * (1 - g) + 2 * g * (1 - c), 1e-8f));
   return (1 - g * g) / (4 * pi * root * root * root);
 }
 
