@@ -2,6 +2,7 @@
 #include "environment_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
@@ -51,6 +52,18 @@ constexpr stbi_io_callbacks stream_calls = {read_stream, skip_stream, stream_is_
 
 }  // namespace
 
+std::string fault_of(environment_map const& map, float intensity) {
+  for (std::size_t k = 0; k < map.texels.size(); ++k)
+    for (int c = 0; c < 3; ++c) {
+      float const v = map.texels[k][c];
+      if (v >= 0 && v * intensity <= 1e30f && v <= 1e30f) continue;
+      return "texel " + std::to_string(k % map.width) + ", " + std::to_string(k / map.width) +
+             " holds a value that is " +
+             (std::isnan(v) ? "not a number" : "negative or beyond 1e30");
+    }
+  return {};
+}
+
 environment_map load_environment(std::string const& path, float intensity) {
   auto const fail = [&](std::string const& what) {
     throw std::runtime_error("environment \"" + path + "\": " + what);
@@ -80,12 +93,9 @@ environment_map load_environment(std::string const& path, float intensity) {
   result.texels.resize(std::size_t{result.width} * result.height);
   for (std::size_t k = 0; k < result.texels.size(); ++k) {
     float const* const v = values.get() + 3 * k;
-    for (int c = 0; c < 3; ++c)
-      if (!(v[c] >= 0 && v[c] * intensity <= 1e30f && v[c] <= 1e30f))
-        fail("texel " + std::to_string(k % result.width) + ", " + std::to_string(k / result.width) +
-             " holds a value that is negative or beyond 1e30");
     result.texels[k] = {v[0], v[1], v[2]};
   }
+  if (std::string const fault = fault_of(result, intensity); !fault.empty()) fail(fault);
   return result;
 }
 

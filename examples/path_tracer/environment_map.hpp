@@ -17,6 +17,10 @@ struct environment_map {
   std::vector<vec3> texels;
 };
 
+/// Which texel no light can come from: one that is negative, not a number or, alone or times
+/// `intensity`, beyond 1e30. Empty where all are well.
+std::string fault_of(environment_map const& map, float intensity);
+
 /// Reads a picture in Radiance's .hdr format, of 2^24 pixels at most. Throws std::runtime_error,
 /// for values that are negative or, times `intensity`, not in the range of a float as well.
 environment_map load_environment(std::string const& path, float intensity);

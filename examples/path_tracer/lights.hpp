@@ -135,11 +135,14 @@ PT_HD inline light_sample sample_emitter(light_view const& lights, triangle cons
   return s;
 }
 
-/// The column of an alias table that two numbers in [0, 1) pick.
+/// The column of an alias table that two numbers in [0, 1) pick. What the first has left over
+/// refines the second, of 24 bits, which alone would pick a rare light too often.
 PT_HD inline std::uint32_t pick_entry(light_entry const* entries, std::uint32_t count, vec2 u) {
-  auto slot = static_cast<std::uint32_t>(u.x * static_cast<float>(count));
+  float const x = u.x * static_cast<float>(count);
+  auto slot = static_cast<std::uint32_t>(x);
   slot = slot < count ? slot : count - 1;
-  return u.y >= entries[slot].keep ? entries[slot].alias : slot;
+  float const rest = glm::min(x - static_cast<float>(slot), 1.0f);
+  return u.y + rest * 0x1p-24f >= entries[slot].keep ? entries[slot].alias : slot;
 }
 
 /// The density per solid angle with which sample_light takes a direction of the environment, at

@@ -47,6 +47,10 @@ void check(scene const& s, render_settings const& settings) {
   for (triangle const& t : s.triangles)
     if (t.material >= s.materials.size())
       throw std::invalid_argument("a triangle names a material that the scene does not have");
+  if (s.sky.texels.size() != std::size_t{s.sky.width} * s.sky.height)
+    throw std::invalid_argument("the environment has not as many texels as its size says");
+  if (std::string const fault = fault_of(s.sky, s.environment_intensity); !fault.empty())
+    throw std::invalid_argument("the environment is not usable: " + fault);
   effect_bits const called = called_for(s);
   if (effect_bits const missing = called & ~effects_of_variant(settings.variant); missing.any())
     throw std::invalid_argument("the variant has no code for " + join_names(missing) +
