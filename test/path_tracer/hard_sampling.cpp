@@ -70,6 +70,19 @@ TEST_CASE("directions are unit vectors for numbers at the ends of their range", 
     }
 }
 
+TEST_CASE("the sine of a direction next to the pole has all its digits", "[hard]") {
+  std::uint64_t const seed = 622;
+  fine_numbers n(seed);
+  for (int i = 0; i < 100000; ++i) {
+    auto const c = static_cast<float>(1 - n.over_decades(1e-7, 1));
+    auto const phi = static_cast<float>(6.28 * n.uniform());
+    vec3 const w = polar(c, phi);
+    CAPTURE(seed, c, phi);
+    REQUIRE_THAT(std::hypot(double{w.x}, double{w.y}),
+                 WithinRel(std::sqrt((1 - double{c}) * (1 + double{c})), 1e-6));
+  }
+}
+
 TEST_CASE("samples of a BSDF are finite for numbers at the ends of their range", "[hard]") {
   auto const check = [](char const* name, auto const& b) {
     for (float const c : {1e-6f, 1e-3f, 0.5f, 1.0f})
