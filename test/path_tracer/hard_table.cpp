@@ -201,15 +201,15 @@ void sum_rows(fine_numbers& n) {
   basic_wave wave{};
   wave.radiance = radiance.data();
   wave.pixels = 1;
-  glm::dvec3 sum{0};
+  pixel_sum<summation::in_double> sum;
   float naive = 0;
   for (int k = 0; k < 100; ++k) {
-    accumulate_samples{wave, paths, &sum}(0);
+    accumulate_samples<decltype(sum)>{wave, paths, &sum}(0);
     for (vec3 const& r : radiance) naive += r.x;
   }
   auto const total = static_cast<double>(100 * exact);
   row("mean of 10^7 samples", "relative error", std::abs(double{naive} / total - 1),
-      std::abs(sum.x / total - 1));
+      std::abs(sum.total.x / total - 1));
 }
 
 void light_rows() {
