@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints the table of docs/hard-cases.md: errors of naive formulas and of ours. Run by its tag.
+// Prints the table of docs/hard-cases.md: errors of naive formulas and of ours.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <limits>
 
 #include "bsdf_support.hpp"
@@ -15,11 +14,12 @@
 using namespace path_tracer;
 
 namespace {
-
 double const exact_pi = std::acos(-1.0);
 
 void row(char const* hard, char const* measure, double naive, double ours) {
   std::printf("| %s | %s | %.2g | %.2g |\n", hard, measure, naive, ours);
+  INFO(hard);
+  CHECK(ours < std::max(naive, 1e-6));
 }
 
 /// The larger of an error and a new one, which counts as infinite if it is not a number.
@@ -238,7 +238,7 @@ void light_rows() {
 
 }  // namespace
 
-TEST_CASE("errors of naive formulas and of ours", "[.][hard-table]") {
+TEST_CASE("ours is less off than the naive formula, or by next to nothing", "[hard][hard-table]") {
   fine_numbers n(661);
   std::printf("| hard case | measure | naive | ours |\n|---|---|---|---|\n");
   fresnel_rows(n);
