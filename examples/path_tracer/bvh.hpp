@@ -95,13 +95,16 @@ class sheared_ray {
   int x_, y_, z_;
 };
 
+/// 1 / x; for 0, the infinity of its sign, which IEEE 754 has for that division.
+PT_HD inline float inverse_of(float x) { return x == 0 ? std::copysign(INFINITY, x) : 1 / x; }
+
 /// A ray in the terms of the slab test.
 class slab_ray {
  public:
   PT_HD explicit slab_ray(ray const& r) {
     for (int k = 0; k < 3; ++k) {
       origin_[k] = r.origin[k];
-      inverse_[k] = 1 / r.direction[k];
+      inverse_[k] = inverse_of(r.direction[k]);
       entry_[k] = inverse_[k] < 0 ? 1 : 0;
     }
   }
