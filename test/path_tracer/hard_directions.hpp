@@ -105,8 +105,7 @@ struct facet_map {
       glm::dvec3 const m = shape.facet(at.x, at.y);
       if (glm::dot(wo, m) > 0) {
         glm::dvec3 const up = reflected(m);
-        double const per_facet = measure(up, m, at.x);
-        if (up.z > 0) f(up, cell / (1 / per_facet + 1));
+        if (up.z > 0) f(up, cell / (1 / measure(up, m, at.x) + 1));
         if (eta > 0)
           if (glm::dvec3 const down = refracted(m); down.z < 0)
             f(down, cell * measure(down, m, at.x));

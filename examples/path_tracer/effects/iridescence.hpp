@@ -60,8 +60,8 @@ struct iridescence {
     m.film_f0 = 0;
     for (int k = 0; k < film_reflectance::samples; ++k) {
       float const weight = schlick_weight(static_cast<float>(k) / (film_reflectance::samples - 1));
-      float const needed = (max_component(m.film.values[k]) - weight) / (1 - weight);
-      if (weight < 1) m.film_f0 = std::max(m.film_f0, needed);
+      if (weight < 1)
+        m.film_f0 = std::max(m.film_f0, (max_component(m.film.values[k]) - weight) / (1 - weight));
     }
   }
 
