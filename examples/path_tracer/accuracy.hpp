@@ -15,6 +15,20 @@ inline constexpr char const* estimator_names[] = {"mis", "bsdf", "light"};
 enum class summation : std::uint8_t { in_double, compensated, in_float };
 inline constexpr char const* summation_names[] = {"double", "compensated", "float"};
 
+/// How a build of the program computes, and what it stores between stages.
+#if defined(PATH_TRACER_DOUBLE)
+inline constexpr char const* precision_name = "double";
+#elif defined(PATH_TRACER_FAST)
+inline constexpr char const* precision_name = "fast";
+#else
+inline constexpr char const* precision_name = "float";
+#endif
+#ifdef PATH_TRACER_COMPACT
+inline constexpr char const* storage_name = "compact";
+#else
+inline constexpr char const* storage_name = "full";
+#endif
+
 /// What a picture may give up of its accuracy, for time: nothing, as constructed, that a larger
 /// number of samples does not bring back, but for the depth of its paths (docs/accuracy.md).
 struct accuracy_settings {

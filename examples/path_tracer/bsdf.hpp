@@ -17,13 +17,13 @@ namespace path_tracer {
 
 struct bsdf_value {
   vec3 f_cos{0};  ///< f(wo, wi) |cos(theta_i)|
-  float pdf = 0;  ///< with which sample() takes wi, per solid angle
+  real pdf = 0;   ///< with which sample() takes wi, per solid angle
 };
 
 struct bsdf_sample {
   vec3 wi{0, 0, 1};
   vec3 weight{0};  ///< f |cos(theta_i)| / pdf; 0: the path ends
-  float pdf = 0;
+  real pdf = 0;
   bool delta = false;  ///< the only direction of a mirror: no pdf, value() does not know it
 };
 
@@ -36,10 +36,10 @@ PT_HD bsdf_sample sample_towards(Bsdf const& b, vec3 wo, vec3 wi) {
 }
 
 /// The choice between two by one number: true with probability p, and u uniform again.
-PT_HD inline bool choose(float p, float& u) {
+PT_HD inline bool choose(real p, real& u) {
   bool const first = u < p;
   u = first ? u / p : (u - p) / (1 - p);
-  u = glm::clamp(u, 0.0f, 0x1.fffffep-1f);
+  u = glm::clamp(u, real(0), 1 - epsilon / 2);
   return first;
 }
 
@@ -65,7 +65,7 @@ struct basic_specular_lobe {
   PT_HD bsdf_value value(vec3 wo, vec3 wi) const {
     if (wi.z <= 0) return {};
     vec3 const m = glm::normalize(wo + wi);
-    float const d = distribution.d(m) / (4 * wo.z);
+    real const d = distribution.d(m) / (4 * wo.z);
     return {schlick(f0, f90, glm::dot(wo, m)) * (d * distribution.g2(wo, wi)),
             d * distribution.g1(wo)};
   }
@@ -88,8 +88,8 @@ struct bsdf_metal {
 
 /// The parameters of glTF's metallic-roughness material, with KHR_materials_specular and _ior.
 struct plastic_parameters {
-  vec3 color{0.8f};
-  float metallic = 0, roughness = 1, ior = 1.5f, specular = 1;
+  vec3 color{real(0.8)};
+  real metallic = 0, roughness = 1, ior = real(1.5), specular = 1;
   vec3 specular_color{1};
 };
 
@@ -97,16 +97,16 @@ struct plastic_parameters {
 struct plastic_terms {
   specular_lobe lobe;
   vec3 diffuse;
-  float roughness;
-  float f0, f90;   ///< with these, Schlick's term of the dielectric is nowhere below the lobe's
-  float guess_f0;  ///< of lobe and metal, for the choice of what to sample
-  float guess_f90;
+  real roughness;
+  real f0, f90;   ///< with these, Schlick's term of the dielectric is nowhere below the lobe's
+  real guess_f0;  ///< of lobe and metal, for the choice of what to sample
+  real guess_f90;
 
   PT_HD explicit plastic_terms(plastic_parameters const& p) {
     vec3 const dielectric = glm::min(dielectric_f0(p.ior) * p.specular_color, vec3{1}) * p.specular;
     lobe.distribution.alpha = alpha_of(p.roughness);
     lobe.f0 = glm::mix(dielectric, p.color, p.metallic);
-    lobe.f90 = vec3{glm::mix(p.specular, 1.0f, p.metallic)};
+    lobe.f90 = vec3{glm::mix(p.specular, real(1), p.metallic)};
     diffuse = p.color * (1 - p.metallic);
     roughness = p.roughness;
     f0 = max_component(dielectric);
@@ -135,17 +135,17 @@ class basic_plastic {
         roughness_(terms.roughness),
         f_{terms.f0, terms.f90},
         guess_{terms.guess_f0, terms.guess_f90} {
-    float const mean = mean_reflected(lobe);
-    scale_ = mean < 1 ? 1 / (1 - mean) : 0.0f;
+    real const mean = mean_reflected(lobe);
+    scale_ = mean < 1 ? 1 / (1 - mean) : real(0);
   }
 
   PT_HD bsdf_value value(vec3 wo, vec3 wi) const {
     if (wi.z <= 0) return {};
     vec2 const e = reflected(wo);
-    float const below = 1 - dot(e, f_);
-    float const p = specular_share(e, below);
+    real const below = 1 - dot(e, f_);
+    real const p = specular_share(e, below);
     bsdf_value v = p > 0 ? lobe_.value(wo, wi) : bsdf_value{};
-    float const diffuse = below * (1 - dot(reflected(wi), f_)) * scale_;
+    real const diffuse = below * (1 - dot(reflected(wi), f_)) * scale_;
     v.f_cos += diffuse_ * (diffuse * (wi.z / pi));
     v.pdf = p * v.pdf + (1 - p) * (wi.z / pi);
     return v;
@@ -158,7 +158,7 @@ class basic_plastic {
   }
 
  private:
-  PT_HD static float dot(vec2 a, vec2 b) { return a.x * b.x + a.y * b.y; }
+  PT_HD static real dot(vec2 a, vec2 b) { return a.x * b.x + a.y * b.y; }
   /// The share of light that the lobe reflects, in multiples of F0 and F90. A lobe that is not
   /// isotropic says which roughness looks the same from `w`, and between which two that lies.
   PT_HD vec2 reflected(vec3 w) const {
@@ -168,7 +168,7 @@ class basic_plastic {
       return tables_->ggx(w.z, roughness_);
     }
   }
-  PT_HD float mean_reflected(Lobe const& lobe) const {
+  PT_HD real mean_reflected(Lobe const& lobe) const {
     if constexpr (has_roughness_from<Lobe>) {
       return glm::min(dot(tables_->ggx_mean(lobe.least_roughness()), f_),
                       dot(tables_->ggx_mean(lobe.most_roughness()), f_));
@@ -176,15 +176,15 @@ class basic_plastic {
       return dot(tables_->ggx_mean(roughness_), f_);
     }
   }
-  PT_HD float specular_share(vec2 e, float below) const {
-    float const s = dot(e, guess_);
-    return s > 0 ? s / (s + luminance(diffuse_) * below) : 0.0f;
+  PT_HD real specular_share(vec2 e, real below) const {
+    real const s = dot(e, guess_);
+    return s > 0 ? s / (s + luminance(diffuse_) * below) : real(0);
   }
 
   Lobe lobe_;
   vec3 diffuse_;
   albedo_tables const* tables_;
-  float roughness_, scale_;
+  real roughness_, scale_;
   vec2 f_, guess_;
 };
 

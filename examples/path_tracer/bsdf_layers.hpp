@@ -11,15 +11,15 @@ template <class Lobe, class Base>
 struct bsdf_layered {
   Lobe lobe;
   Base base;
-  float base_albedo;  ///< a guess, for the choice of what to sample
+  real base_albedo;  ///< a guess, for the choice of what to sample
 
   PT_HD bsdf_value value(vec3 wo, vec3 wi) const {
     if (wi.z <= 0) return {};
-    float const e = lobe.albedo(wo.z);
-    float const p = lobe_share(e);
+    real const e = lobe.albedo(wo.z);
+    real const p = lobe_share(e);
     bsdf_value const top = lobe.value(wo, wi);
     bsdf_value const below = base.value(wo, wi);
-    float const through = 1 - glm::max(e, lobe.albedo(wi.z));
+    real const through = 1 - glm::max(e, lobe.albedo(wi.z));
     return {top.f_cos + through * below.f_cos, p * top.pdf + (1 - p) * below.pdf};
   }
   PT_HD bsdf_sample sample(vec3 wo, vec3 u) const {
@@ -30,8 +30,8 @@ struct bsdf_layered {
   }
 
  private:
-  PT_HD float lobe_share(float e) const {
-    return e > 0 ? e / (e + (1 - e) * glm::max(base_albedo, 0.05f)) : 0.0f;
+  PT_HD real lobe_share(real e) const {
+    return e > 0 ? e / (e + (1 - e) * glm::max(base_albedo, real(0.05))) : real(0);
   }
 };
 

@@ -11,13 +11,13 @@ namespace path_tracer {
 struct ray {
   vec3 origin;
   vec3 direction;  ///< of any length; distances count in multiples of it
-  float t_max;     ///< hits lie in (0, t_max)
+  real t_max;      ///< hits lie in (0, t_max)
 };
 
 inline constexpr std::uint32_t no_primitive = 0xffffffffu;
 
 struct hit {
-  float t = 0;
+  real t = 0;
   vec2 barycentric{0};  ///< weights of the second and third corner
   std::uint32_t primitive = no_primitive;
 };
@@ -25,7 +25,7 @@ struct hit {
 /// An inner node: the boxes of its two children and where they are. A reference to a leaf has the
 /// top bit set, then 3 bits for the number of triangles less one, then 28 for the first triangle.
 struct alignas(64) bvh_node {
-  float corner[2][2][3];  ///< of each child, the lower and the upper
+  real corner[2][2][3];  ///< of each child, the lower and the upper
   std::uint32_t child[2];
 };
 
@@ -34,7 +34,7 @@ inline constexpr std::uint32_t max_bvh_triangles = 1u << 28;
 inline constexpr int max_bvh_depth = 60;  ///< levels of inner nodes; the builder keeps to it
 
 struct bvh_triangle {
-  float corner[3][3];
+  real corner[3][3];
   std::uint32_t primitive;  ///< its number in the scene
 };
 
@@ -66,29 +66,35 @@ class sheared_ray {
     vec2 const pa{a.x - shear_.x * a.z, a.y - shear_.y * a.z};
     vec2 const pb{b.x - shear_.x * b.z, b.y - shear_.y * b.z};
     vec2 const pc{c.x - shear_.x * c.z, c.y - shear_.y * c.z};
-    float u = pc.x * pb.y - pc.y * pb.x;
-    float v = pa.x * pc.y - pa.y * pc.x;
-    float w = pb.x * pa.y - pb.y * pa.x;
+    real u = pc.x * pb.y - pc.y * pb.x;
+    real v = pa.x * pc.y - pa.y * pc.x;
+    real w = pb.x * pa.y - pb.y * pa.x;
     if (u == 0 || v == 0 || w == 0) {  // on an edge: the sign needs the exact product
       u = edge(pc, pb);
       v = edge(pa, pc);
       w = edge(pb, pa);
     }
     if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return false;
-    float const det = u + v + w;
+    real const det = u + v + w;
     if (det == 0) return false;
-    float const t = (u * a.z + v * b.z + w * c.z) * shear_.z / det;
+    real const t = (u * a.z + v * b.z + w * c.z) * shear_.z / det;
     if (!(t > 0 && t < h.t)) return false;
     h = {t, {v / det, w / det}, triangle.primitive};
     return true;
   }
 
  private:
-  PT_HD vec3 shifted(float const* p) const {
+  PT_HD vec3 shifted(real const* p) const {
     return {p[x_] - origin_.x, p[y_] - origin_.y, p[z_] - origin_.z};
   }
-  PT_HD static float edge(vec2 p, vec2 q) {
-    return static_cast<float>(double{p.x} * double{q.y} - double{p.y} * double{q.x});
+  /// With the sign of the exact value.
+  PT_HD static real edge(vec2 p, vec2 q) {
+    if constexpr (sizeof(real) < sizeof(double)) {
+      return static_cast<real>(double{p.x} * double{q.y} - double{p.y} * double{q.x});
+    } else {  // Kahan's: the rounding of one product, found by fma
+      real const product = p.y * q.x;
+      return std::fma(p.x, q.y, -product) - std::fma(p.y, q.x, -product);
+    }
   }
 
   vec3 origin_, shear_;
@@ -96,7 +102,7 @@ class sheared_ray {
 };
 
 /// 1 / x; for 0, the infinity of its sign, which IEEE 754 has for that division.
-PT_HD inline float inverse_of(float x) { return x == 0 ? std::copysign(INFINITY, x) : 1 / x; }
+PT_HD inline real inverse_of(real x) { return x == 0 ? std::copysign(INFINITY, x) : 1 / x; }
 
 /// A ray in the terms of the slab test.
 class slab_ray {
@@ -110,11 +116,11 @@ class slab_ray {
   }
   /// Where the ray enters a box, or infinity. Never misses a box that it touches: the far distance
   /// is rounded up by the bound of Ize, JCGT 2013, and a NaN (0 times infinity) constrains nothing.
-  PT_HD float enter(float const (&corner)[2][3], float t_max) const {
-    float first = 0, last = t_max;
+  PT_HD real enter(real const (&corner)[2][3], real t_max) const {
+    real first = 0, last = t_max;
     for (int k = 0; k < 3; ++k) {
-      float const t0 = (corner[entry_[k]][k] - origin_[k]) * inverse_[k];
-      float const t1 = (corner[1 - entry_[k]][k] - origin_[k]) * inverse_[k] * 1.0000004f;
+      real const t0 = (corner[entry_[k]][k] - origin_[k]) * inverse_[k];
+      real const t1 = (corner[1 - entry_[k]][k] - origin_[k]) * inverse_[k] * (1 + 3 * epsilon);
       first = t0 > first ? t0 : first;
       last = t1 < last ? t1 : last;
     }
@@ -122,7 +128,7 @@ class slab_ray {
   }
 
  private:
-  float origin_[3], inverse_[3];
+  real origin_[3], inverse_[3];
   int entry_[3];  // which corner of a box is met first, per axis
 };
 
@@ -131,7 +137,7 @@ class slab_ray {
 template <bool AnyHit, class Triangles>
 PT_HD hit traverse(bvh_view const& bvh, Triangles const& triangles, ray const& r) {
   std::uint32_t stack[max_bvh_depth + 1];  // each level leaves one child behind at most
-  float entry[max_bvh_depth + 1];          // where the ray enters it
+  real entry[max_bvh_depth + 1];           // where the ray enters it
   int size = 0;
   sheared_ray const sheared{r};
   slab_ray const slabs{r};
@@ -146,10 +152,10 @@ PT_HD hit traverse(bvh_view const& bvh, Triangles const& triangles, ray const& r
         if (sheared.intersect(triangles[i], h) && AnyHit) return h;
     } else {
       bvh_node const& node = bvh.nodes[at];
-      float const t0 = slabs.enter(node.corner[0], h.t);
-      float const t1 = slabs.enter(node.corner[1], h.t);
+      real const t0 = slabs.enter(node.corner[0], h.t);
+      real const t1 = slabs.enter(node.corner[1], h.t);
       bool const second_first = t1 < t0;
-      float const nearer = second_first ? t1 : t0, farther = second_first ? t0 : t1;
+      real const nearer = second_first ? t1 : t0, farther = second_first ? t0 : t1;
       if (nearer < INFINITY) {
         at = node.child[second_first ? 1 : 0];
         if (farther < INFINITY) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int bin_count = 16;
 constexpr std::uint32_t good_leaf_size = 2;
-constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr real infinity = std::numeric_limits<real>::infinity();
 
 struct box {
   vec3 lower{infinity};
@@ -33,10 +33,10 @@ struct box {
   }
 };
 
-void store(vec3 v, float (&to)[3]) {
+void store(vec3 v, real (&to)[3]) {
   for (int k = 0; k < 3; ++k) to[k] = v[k];
 }
-void store(box const& b, float (&to)[2][3]) {
+void store(box const& b, real (&to)[2][3]) {
   store(b.lower, to[0]);
   store(b.upper, to[1]);
 }
@@ -69,7 +69,7 @@ class builder {
       for (vec3 const& p : triangles[i].position) it.bounds.add(p);
       if (!motion.empty())
         for (vec3 const& p : motion[i].position) it.bounds.add(p);
-      it.centroid = it.bounds.lower * 0.5f + it.bounds.upper * 0.5f;
+      it.centroid = it.bounds.lower * real(0.5) + it.bounds.upper * real(0.5);
       it.primitive = i;
       items_.push_back(it);
     }

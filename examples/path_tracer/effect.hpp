@@ -32,7 +32,7 @@ namespace path_tracer {
 inline constexpr std::int32_t no_texture = -1;
 
 /// From this share of metal on, a material is a conductor.
-inline constexpr float metal_from = 0.99f;
+inline constexpr real metal_from = real(0.99);
 
 /// Some of a scene's elements: the first by its number and, where it has one, its name, and how
 /// many more: `light 0 "sun" and 2 more`.
@@ -52,7 +52,7 @@ using member_of = T Part::*;
 template <class Part>
 struct property {
   char const* path;
-  member_of<Part, float> number = nullptr;
+  member_of<Part, real> number = nullptr;
   member_of<Part, vec3> color = nullptr;
   member_of<Part, bool> flag = nullptr;
   double low = 0, high = 0;
@@ -61,7 +61,7 @@ struct property {
 };
 
 template <class Part>
-constexpr property<Part> number_property(char const* path, float Part::*member, double low,
+constexpr property<Part> number_property(char const* path, real Part::*member, double low,
                                          double high) {
   return {path, member, nullptr, nullptr, low, high, nullptr};
 }

@@ -52,11 +52,11 @@ constexpr stbi_io_callbacks stream_calls = {read_stream, skip_stream, stream_is_
 
 }  // namespace
 
-std::string fault_of(environment_map const& map, float intensity) {
+std::string fault_of(environment_map const& map, real intensity) {
   for (std::size_t k = 0; k < map.texels.size(); ++k)
     for (int c = 0; c < 3; ++c) {
-      float const v = map.texels[k][c];
-      if (v >= 0 && v * intensity <= 1e30f && v <= 1e30f) continue;
+      real const v = map.texels[k][c];
+      if (v >= 0 && v * intensity <= real(1e30) && v <= real(1e30)) continue;
       return "texel " + std::to_string(k % map.width) + ", " + std::to_string(k / map.width) +
              " holds a value that is " +
              (std::isnan(v) ? "not a number" : "negative or beyond 1e30");
@@ -64,7 +64,7 @@ std::string fault_of(environment_map const& map, float intensity) {
   return {};
 }
 
-environment_map load_environment(std::string const& path, float intensity) {
+environment_map load_environment(std::string const& path, real intensity) {
   auto const fail = [&](std::string const& what) {
     throw std::runtime_error("environment \"" + path + "\": " + what);
   };

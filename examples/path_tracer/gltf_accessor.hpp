@@ -8,6 +8,7 @@
 #include <string>
 
 #include "gltf_document.hpp"
+#include "math.hpp"
 
 namespace path_tracer::gltf {
 
@@ -33,18 +34,18 @@ struct elements {
   }
 
   /// A float, or a normalised integer.
-  float float_at(std::size_t i, std::size_t component) const {
+  real real_at(std::size_t i, std::size_t component) const {
     switch (component_type) {
       case TINYGLTF_COMPONENT_TYPE_FLOAT:
         return get<float>(i, component);
       case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return std::max(static_cast<float>(get<std::int8_t>(i, component)) / 127.0f, -1.0f);
+        return std::max(static_cast<real>(get<std::int8_t>(i, component)) / real(127), real(-1));
       case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return std::max(static_cast<float>(get<std::int16_t>(i, component)) / 32767.0f, -1.0f);
+        return std::max(static_cast<real>(get<std::int16_t>(i, component)) / real(32767), real(-1));
       case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return static_cast<float>(unsigned_at(i, component)) / 255.0f;
+        return static_cast<real>(unsigned_at(i, component)) / real(255);
       default:
-        return static_cast<float>(unsigned_at(i, component)) / 65535.0f;
+        return static_cast<real>(unsigned_at(i, component)) / real(65535);
     }
   }
 };

@@ -69,12 +69,12 @@ void animations::add(document& d, tinygltf::Animation const& animation,
   channel c{
       static_cast<std::size_t>(from.target_node), path, sampler.interpolation == "STEP", {}, {}};
   for (std::size_t i = 0; i < keys.count; ++i) {
-    c.times.push_back(double{keys.float_at(i, 0)});
+    c.times.push_back(double{keys.real_at(i, 0)});
     if (!std::isfinite(c.times[i]) || (i > 0 && !(c.times[i] > c.times[i - 1])))
       fail("the times of its keys do not increase");
     std::vector<double> value;
     for (std::size_t j = 0; j < (rotates ? 4u : 3u); ++j)
-      value.push_back(double{values.float_at(i * per_key + per_key / 2, j)});
+      value.push_back(double{values.real_at(i * per_key + per_key / 2, j)});
     c.values.push_back(value);
   }
   channels_.push_back(c);

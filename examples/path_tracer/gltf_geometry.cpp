@@ -61,7 +61,7 @@ class primitive_reader {
     elements const e = open(primitive_.attributes.at(name), TINYGLTF_TYPE_VEC3, name);
     std::vector<vec3> result(e.count);
     for (std::size_t i = 0; i < e.count; ++i) {
-      result[i] = {e.float_at(i, 0), e.float_at(i, 1), e.float_at(i, 2)};
+      result[i] = {e.real_at(i, 0), e.real_at(i, 1), e.real_at(i, 2)};
       if (!is_finite(result[i])) fail(name + " of vertex " + std::to_string(i) + " is not finite");
     }
     return result;
@@ -96,7 +96,7 @@ class primitive_reader {
       same_count(e.count, "TEXCOORD_0");
       uvs_.resize(e.count);
       for (std::size_t i = 0; i < e.count; ++i) {
-        uvs_[i] = {e.float_at(i, 0), e.float_at(i, 1)};
+        uvs_[i] = {e.real_at(i, 0), e.real_at(i, 1)};
         if (!std::isfinite(uvs_[i].x) || !std::isfinite(uvs_[i].y))
           fail("TEXCOORD_0 of vertex " + std::to_string(i) + " is not finite");
       }

@@ -11,10 +11,10 @@
 namespace path_tracer::gltf {
 namespace {
 
-constexpr float infinite_ior = 1000.0f;  // what KHR_materials_ior means by an ior of 0
+constexpr real infinite_ior = real(1000);  // what KHR_materials_ior means by an ior of 0
 
-float number_at(json const& from, char const* pointer, float otherwise) {
-  return static_cast<float>(value_at(from, pointer, double{otherwise}));
+real number_at(json const& from, char const* pointer, real otherwise) {
+  return static_cast<real>(value_at(from, pointer, double{otherwise}));
 }
 
 vec3 color_at(json const& from, char const* pointer, vec3 otherwise) {
@@ -52,7 +52,7 @@ class material_reader {
     m.two_sided = value_at(from, "/doubleSided", false);
     m.emission = color_at(from, "/emissiveFactor", vec3(0)) *
                  number_at(from, "/extensions/KHR_materials_emissive_strength/emissiveStrength", 1);
-    m.ior = number_at(from, "/extensions/KHR_materials_ior/ior", 1.5f);
+    m.ior = number_at(from, "/extensions/KHR_materials_ior/ior", real(1.5));
     if (m.ior == 0) m.ior = infinite_ior;
     m.transmission =
         number_at(from, "/extensions/KHR_materials_transmission/transmissionFactor", 0);
@@ -73,7 +73,8 @@ class material_reader {
 
   void choose(material& m) {
     if (m.ior < 1) fail("its ior is between 0 and 1");
-    if (!(max_component(m.emission) <= 1e30f)) fail("its emission is beyond the range of a float");
+    if (!(max_component(m.emission) <= real(1e30)))
+      fail("its emission is beyond the range of a float");
     choose_shader(m, effect_bits().set());
     auto const hidden = [&](std::string const& name) {
       document_.left_out.add(name + " under another shader", where_);

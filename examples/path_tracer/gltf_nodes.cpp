@@ -58,12 +58,12 @@ camera make_camera(document const& d, std::size_t index, glm::dmat4 const& to_wo
   result.right = vec3(right);
   result.up = vec3(glm::cross(right, forward));
   if (from.type == "perspective") {
-    result.tan_half_yfov = static_cast<float>(std::tan(from.perspective.yfov / 2));
+    result.tan_half_yfov = static_cast<real>(std::tan(from.perspective.yfov / 2));
   } else {
     double const height = std::fabs(from.orthographic.ymag) * glm::length(glm::dvec3(to_world[1]));
     if (!(height > 0))
       throw std::runtime_error(element(d.root, "cameras", index) + ": its ymag is 0");
-    result.ortho_height = static_cast<float>(height);
+    result.ortho_height = static_cast<real>(height);
   }
   return result;
 }
@@ -78,20 +78,20 @@ punctual_light make_light(document const& d, std::size_t index, glm::dmat4 const
   result.direction = vec3(-glm::normalize(glm::dvec3(to_world[2])));
   glm::dvec3 const color = from.color.empty() ? glm::dvec3(1) : vector(from.color);
   result.intensity = vec3(color * from.intensity);
-  if (!(max_component(result.intensity) <= 1e30f))
+  if (!(max_component(result.intensity) <= real(1e30)))
     fail("its intensity is beyond the range of a float");
   if (from.type == "directional") {
     result.kind = punctual_light::type::directional;
     return result;
   }
-  result.range = static_cast<float>(from.range);
+  result.range = static_cast<real>(from.range);
   if (from.type == "point") return result;
   if (from.type != "spot") fail("its type \"" + from.type + "\" is none of glTF's");
   if (!(from.spot.innerConeAngle < from.spot.outerConeAngle))
     fail("its innerConeAngle is not less than its outerConeAngle");
   result.kind = punctual_light::type::spot;
-  result.cos_inner = static_cast<float>(std::cos(from.spot.innerConeAngle));
-  result.cos_outer = static_cast<float>(std::cos(from.spot.outerConeAngle));
+  result.cos_inner = static_cast<real>(std::cos(from.spot.innerConeAngle));
+  result.cos_outer = static_cast<real>(std::cos(from.spot.outerConeAngle));
   return result;
 }
 

@@ -46,12 +46,12 @@ void read_property(json const& from, property<Part> const& p, Part& part) {
   json::json_pointer const at("/" + std::string(p.path));
   if (!from.contains(at)) return;
   json const& value = from.at(at);
-  if (p.number != nullptr) part.*p.number = static_cast<float>(value.get<double>());
+  if (p.number != nullptr) part.*p.number = static_cast<real>(value.get<double>());
   if (p.flag != nullptr) part.*p.flag = value == p.word;
   if (p.text != nullptr) part.*p.text = value.get<std::string>();
   if (p.color == nullptr) return;
   for (int k = 0; k < 3; ++k)
-    (part.*p.color)[k] = static_cast<float>(value[static_cast<std::size_t>(k)].get<double>());
+    (part.*p.color)[k] = static_cast<real>(value[static_cast<std::size_t>(k)].get<double>());
 }
 
 /// The same for all properties of a material, of a camera or of a scene.

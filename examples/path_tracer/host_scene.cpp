@@ -4,10 +4,10 @@
 namespace path_tracer {
 namespace {
 
-std::vector<float> srgb_table() {
-  std::vector<float> table;
+std::vector<real> srgb_table() {
+  std::vector<real> table;
   for (int code = 0; code < 256; ++code)
-    table.push_back(srgb_to_linear(static_cast<float>(code) / 255.0f));
+    table.push_back(srgb_to_linear(static_cast<real>(code) / real(255)));
   return table;
 }
 

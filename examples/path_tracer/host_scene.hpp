@@ -20,7 +20,7 @@ struct host_scene {
   bvh hierarchy;
   light_list lights;
   int octaves;
-  std::vector<float> linear;  ///< values of the 256 sRGB codes
+  std::vector<real> linear;  ///< values of the 256 sRGB codes
 };
 
 }  // namespace path_tracer

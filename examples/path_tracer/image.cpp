@@ -38,7 +38,7 @@ std::uint8_t encode_srgb(float linear) {
 std::string encode_png(image const& picture) {
   std::vector<std::uint8_t> bytes;
   bytes.reserve(3 * picture.pixels.size());
-  for (vec3 const& p : picture.pixels)
+  for (rgb const& p : picture.pixels)
     for (int i = 0; i < 3; ++i) bytes.push_back(encode_srgb(p[i]));
   std::string result;
   auto const append = [](void* to, void* data, int size) {
@@ -96,7 +96,7 @@ std::string encode_exr(image const& picture) {
     header.channels().insert(names[i], Imf::Channel(Imf::FLOAT));
     // A frame buffer is for reading and writing alike; an output file only reads from it.
     pixels.insert(names[i], Imf::Slice(Imf::FLOAT, const_cast<char*>(data) + i * sizeof(float),
-                                       sizeof(vec3), sizeof(vec3) * picture.width));
+                                       sizeof(rgb), sizeof(rgb) * picture.width));
   }
   memory_stream stream;
   {

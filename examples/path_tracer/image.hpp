@@ -13,7 +13,7 @@ namespace path_tracer {
 /// Linear RGB, row 0 on top.
 struct image {
   std::uint32_t width = 0, height = 0;
-  std::vector<vec3> pixels;
+  std::vector<rgb> pixels;
 };
 
 /// The file name endings that `write_image` takes in this build: .png, .pfm and perhaps .exr.

@@ -18,7 +18,7 @@ void build_alias_table(std::vector<light_entry>& entries, std::vector<double> po
   auto const count = static_cast<double>(power.size());
   std::vector<std::uint32_t> small, large;
   for (std::uint32_t i = 0; i < power.size(); ++i) {
-    entries[i].probability = static_cast<float>(power[i] / sum);
+    entries[i].probability = static_cast<real>(power[i] / sum);
     entries[i].keep = 1;
     entries[i].alias = i;
     power[i] *= count / sum;
@@ -27,7 +27,7 @@ void build_alias_table(std::vector<light_entry>& entries, std::vector<double> po
   while (!small.empty() && !large.empty()) {
     std::uint32_t const s = small.back(), l = large.back();
     small.pop_back();
-    entries[s].keep = static_cast<float>(power[s]);
+    entries[s].keep = static_cast<real>(power[s]);
     entries[s].alias = l;
     power[l] -= 1 - power[s];
     if (power[l] >= 1) continue;
@@ -62,7 +62,7 @@ light_list::light_list(scene const& s, estimator how) : how_(how) {
       upper = glm::max(upper, p);
     }
   double const radius = 0.5 * glm::length(glm::dvec3(upper) - glm::dvec3(lower));
-  far_away_ = static_cast<float>(4 * radius + 1);
+  far_away_ = static_cast<real>(4 * radius + 1);
   for (std::uint32_t i = 0; i < s.lights.size(); ++i) {
     punctual_light const& light = s.lights[i];
     double const share = light.kind == punctual_light::type::point ? 4
@@ -83,7 +83,7 @@ light_list::light_list(scene const& s, estimator how) : how_(how) {
   double sum = 0;
   for (double const w : power) sum += w;
   if (entries_.empty()) return;
-  per_power_ = static_cast<float>(1 / sum);
+  per_power_ = static_cast<real>(1 / sum);
   build_alias_table(entries_, power, sum);
 }
 

@@ -14,21 +14,34 @@
 #endif
 
 #include <deferred_shade/config.hpp>
+#include <limits>
 
 #define PT_HD DEFERRED_SHADE_HOST_DEVICE
 
 namespace path_tracer {
 
-using glm::vec2;
-using glm::vec3;
-using glm::vec4;
+/// The numbers of a renderer: positions, directions, light. Pictures are float, sums as asked.
+#ifdef PATH_TRACER_DOUBLE
+using real = double;
+#else
+using real = float;
+#endif
+using vec2 = glm::vec<2, real>;
+using vec3 = glm::vec<3, real>;
+using vec4 = glm::vec<4, real>;
+using rgb = glm::vec<3, float>;  ///< of pictures
 
-inline constexpr float pi = 3.14159265358979323846f;
+inline constexpr real pi = real(3.14159265358979323846);
+
+/// From 1 to the next number.
+inline constexpr real epsilon = std::numeric_limits<real>::epsilon();
 
 /// Rec. 709 luminance of linear RGB.
-PT_HD inline float luminance(vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+PT_HD inline real luminance(vec3 c) {
+  return real(0.2126) * c.x + real(0.7152) * c.y + real(0.0722) * c.z;
+}
 
-PT_HD inline float max_component(vec3 c) {
+PT_HD inline real max_component(vec3 c) {
   return c.x > c.y ? (c.x > c.z ? c.x : c.z) : (c.y > c.z ? c.y : c.z);
 }
 

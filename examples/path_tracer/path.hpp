@@ -5,27 +5,37 @@
 
 #include "effects.hpp"
 #include "math.hpp"
+#include "packed.hpp"
 #include "random.hpp"
 
 namespace path_tracer {
+
+// What paths carry from stage to stage, as it lies in memory.
+#ifdef PATH_TRACER_COMPACT
+using stored_direction = packed_direction;
+using stored_color = packed_color;
+#else
+using stored_direction = vec3;
+using stored_color = vec3;
+#endif
 
 /// The paths of one wave, an array per field; request i of the library is path i. A wave covers the
 /// items first, first + 1, ... of the image, of which number k is sample k / pixels of the pixel
 /// k % pixels: neighbours in a wave are neighbours in the picture.
 struct basic_wave {
-  vec3* origin;      ///< the ray to trace next
-  vec3* direction;   ///< a unit vector
-  vec3* throughput;  ///< 0: the path is finished
-  vec3* radiance;    ///< collected so far
-  float* pdf;        ///< with which the BSDF took `direction`; 0: no light sample could have
+  vec3* origin;                 ///< the ray to trace next
+  stored_direction* direction;  ///< a unit vector
+  stored_color* throughput;     ///< 0: the path is finished
+  stored_color* radiance;       ///< collected so far
+  real* pdf;  ///< with which the BSDF took `direction`; 0: no light sample could have
 
   std::uint32_t* primitive;  ///< what the ray hit
   vec2* barycentric;
   std::uint8_t* id;  ///< the shader to run, or `finished`
 
   vec3* shadow_origin;
-  vec3* shadow_vector;  ///< from there to the light
-  vec3* shadow_light;   ///< what arrives if nothing is between; 0: nothing to trace
+  vec3* shadow_vector;         ///< from there to the light
+  stored_color* shadow_light;  ///< what arrives if nothing is between; 0: nothing to trace
 
   std::uint64_t first;
   std::uint64_t seed;

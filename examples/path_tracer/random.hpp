@@ -24,8 +24,8 @@ class random_stream {
   /// The pair number `index`: two independent numbers, uniform in [0, 1), multiples of 2^-24.
   PT_HD vec2 pair(std::uint32_t index) const {
     std::uint64_t const bits = mix_bits(key_ + (std::uint64_t{index} + 1) * step);
-    return {static_cast<float>(bits >> 40) * 0x1p-24f,
-            static_cast<float>((bits >> 16) & 0xffffffu) * 0x1p-24f};
+    return {static_cast<real>(bits >> 40) * real(0x1p-24),
+            static_cast<real>((bits >> 16) & 0xffffffu) * real(0x1p-24)};
   }
 
  private:

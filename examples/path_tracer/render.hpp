@@ -42,7 +42,7 @@ struct bounce {
 };
 
 struct render_result {
-  std::vector<vec3> pixels;  ///< linear RGB radiance, row 0 on top
+  std::vector<rgb> pixels;  ///< linear RGB radiance, row 0 on top
   std::vector<bounce> bounces;
   double seconds = 0;                   ///< without what statistics took
   std::uint64_t rays = 0;               ///< closest-hit and shadow rays

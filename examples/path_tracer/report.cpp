@@ -24,11 +24,11 @@ double sum(std::vector<bounce> const& bounces, double bounce::*member) {
 }  // namespace
 
 void require_identical(run const& a, run const& b) {
-  std::vector<vec3> const &p = a.result.pixels, &q = b.result.pixels;
+  std::vector<rgb> const &p = a.result.pixels, &q = b.result.pixels;
   std::string const pair = "the pictures of schedules " + a.schedule + " and " + b.schedule;
   if (p.size() != q.size()) throw std::runtime_error(pair + " differ in size");
   for (std::size_t i = 0; i < p.size(); ++i)
-    if (std::memcmp(&p[i], &q[i], sizeof(vec3)) != 0)
+    if (std::memcmp(&p[i], &q[i], sizeof(rgb)) != 0)
       throw std::runtime_error(pair + " differ, first at pixel " + std::to_string(i) +
                                " from the upper left");
 }
@@ -101,6 +101,8 @@ std::string json_report(options const& o, std::size_t triangle_count,
                          {"roulette", s.accuracy.roulette_from},
                          {"sums", summation_names[static_cast<int>(s.accuracy.sums)]},
                          {"octaves", s.accuracy.octaves},
+                         {"precision", precision_name},
+                         {"storage", storage_name},
                          {"effects", o.effects},
                          {"code_for", join_names(effects_of_variant(s.variant))}}},
                        {"schedules", schedules}};

@@ -36,6 +36,6 @@ void write_heatmaps(std::string const& folder, render_settings const& settings, 
 /// Linear RGB of an efficiency in [0, 1]: dark violet over red and orange to pale yellow. Lightness
 /// in Oklab (Ottosson 2020) rises in proportion to the value, so that equal steps look equal, in
 /// print without colour too.
-vec3 heat_color(float efficiency);
+rgb heat_color(float efficiency);
 
 }  // namespace path_tracer

@@ -16,14 +16,14 @@ struct surface_shader<effects::medium, Set> {
     wave.throughput[i] = vec3{0};
     if (wave.bounce + 1 >= wave.max_depth) return;
     if constexpr (has_lights<Set>) add_light(i, throughput);
-    float survival = 1;
+    real survival = 1;
     random_stream const random = wave.random(i);
     if (wave.bounce + 1 >= wave.roulette_from) {
-      survival = glm::min(0.95f, max_component(throughput));
+      survival = glm::min(real(0.95), max_component(throughput));
       if (random.pair(pair_of(draw::lobe_and_roulette, wave.bounce)).y >= survival) return;
     }
     vec2 const u = random.pair(pair_of(draw::direction, wave.bounce));
-    float const cosine = sample_phase(scene.medium.anisotropy, u.x);
+    real const cosine = sample_phase(scene.medium.anisotropy, u.x);
     surface frame;
     set_frame(frame, wave.direction[i], vec3{0});
     wave.pdf[i] = phase(scene.medium.anisotropy, cosine);
@@ -37,8 +37,8 @@ struct surface_shader<effects::medium, Set> {
     vec3 const p = wave.origin[i];
     light_sample const l = sample_light<Set>(scene.lights, p, draws_of_light<Set>(wave, i));
     if (!(l.pdf > 0)) return;
-    float const density = phase(scene.medium.anisotropy, glm::dot(l.wi, wave.direction[i]));
-    float const weight = l.delta ? 1.0f : weight_of_light(scene.lights.how, l.pdf, density);
+    real const density = phase(scene.medium.anisotropy, glm::dot(l.wi, vec3(wave.direction[i])));
+    real const weight = l.delta ? real(1) : weight_of_light(scene.lights.how, l.pdf, density);
     wave.shadow_origin[i] = p;
     wave.shadow_vector[i] = l.wi * l.distance + l.clearance;
     wave.shadow_light[i] = throughput * density * arriving<Set>(scene, l) * (weight / l.pdf);

@@ -16,17 +16,17 @@ inline constexpr std::uint8_t finished = 255;
 /// A surface in the terms of glTF 2.0; colours are linear.
 struct basic_material {
   shader kind = shader_of<effects::matte>;
-  vec3 base_color{0.8f};
-  float metallic = 0;
-  float roughness = 1;  ///< perceptual; alpha = roughness^2
-  float ior = 1.5f;
-  float transmission = 0;
-  float specular = 1;  ///< KHR_materials_specular
+  vec3 base_color{real(0.8)};
+  real metallic = 0;
+  real roughness = 1;  ///< perceptual; alpha = roughness^2
+  real ior = real(1.5);
+  real transmission = 0;
+  real specular = 1;  ///< KHR_materials_specular
   vec3 specular_color{1};
-  vec3 emission{0};         ///< radiance: emissiveFactor * emissiveStrength
-  bool two_sided = false;   ///< emits from both sides; every surface is visible from both
-  vec3 second_color{0};     ///< procedural shaders: the vein or the dark ring
-  float pattern_scale = 1;  ///< procedural shaders: cycles per unit of world space length
+  vec3 emission{0};        ///< radiance: emissiveFactor * emissiveStrength
+  bool two_sided = false;  ///< emits from both sides; every surface is visible from both
+  vec3 second_color{0};    ///< procedural shaders: the vein or the dark ring
+  real pattern_scale = 1;  ///< procedural shaders: cycles per unit of world space length
 };
 struct material : basic_material, material_parts<all_effects> {};
 
@@ -52,16 +52,16 @@ struct punctual_light {
   vec3 position{0};
   vec3 direction{0, 0, -1};  ///< the way the light travels
   vec3 intensity{0};  ///< W/sr per channel (candela scale, linear RGB); directional: irradiance
-  float range = 0;    ///< 0: unlimited
-  float cos_inner = 1, cos_outer = 0;
+  real range = 0;     ///< 0: unlimited
+  real cos_inner = 1, cos_outer = 0;
 };
 
 /// A pinhole camera; `right`, `up`, `forward` are orthonormal.
 struct basic_camera {
   vec3 position{0};
   vec3 right{1, 0, 0}, up{0, 1, 0}, forward{0, 0, -1};
-  float tan_half_yfov = 0.5f;
-  float ortho_height = 0;  ///< half height of an orthographic view; 0 for a perspective one
+  real tan_half_yfov = real(0.5);
+  real ortho_height = 0;  ///< half height of an orthographic view; 0 for a perspective one
 };
 struct camera : basic_camera, camera_parts<all_effects> {};
 

@@ -17,7 +17,7 @@ struct shading_point {
   surface const& at;
   triangle const& hit;
   vec3 color{0};  ///< base colour, its texture looked up
-  float ior = 0;  ///< 0 stands for infinity
+  real ior = 0;   ///< 0 stands for infinity
 
   PT_HD shading_point(scene_view const& view, surface const& s, triangle const& t)
       : scene(view), material(view.materials[s.material]), at(s), hit(t) {
@@ -47,34 +47,34 @@ struct shading_point {
   /// tangent.
   PT_HD vec2 direction_of_u() const {
     vec3 const u = at.to_local(axes_of(hit).u);
-    float const length2 = u.x * u.x + u.y * u.y;
+    real const length2 = u.x * u.x + u.y * u.y;
     return length2 > 0 && length2 < INFINITY ? vec2{u.x, u.y} / std::sqrt(length2) : vec2{1, 0};
   }
 
   /// 1 where u, against v and the normal make a right-handed frame, as where glTF's tangent space
   /// is not mirrored and seen from the front; else -1.
-  PT_HD float side_of_v() const {
+  PT_HD real side_of_v() const {
     texture_axes const axes = axes_of(hit);
-    return glm::dot(glm::cross(at.normal, axes.u), axes.v) > 0 ? -1.0f : 1.0f;
+    return glm::dot(glm::cross(at.normal, axes.u), axes.v) > 0 ? real(-1) : real(1);
   }
 
   /// The refractive index of the far side over that of the near side.
-  PT_HD float eta() const {
-    float const inside = ior > 0 ? glm::max(ior, 1.001f) : 0.0f;
+  PT_HD real eta() const {
+    real const inside = ior > 0 ? glm::max(ior, real(1.001)) : real(0);
     return at.front || inside == 0 ? inside : 1 / inside;
   }
 };
 
 /// The light from a hit emitter, weighed against what a light sample at the last surface found.
 PT_HD inline void add_emission(basic_wave const& wave, scene_view const& scene, std::uint32_t i,
-                               surface const& s, float area_ratio) {
+                               surface const& s, real area_ratio) {
   material const& m = scene.materials[s.material];
   if (!s.front && !m.two_sided) return;
-  float weight = 1;
+  real weight = 1;
   if (wave.pdf[i] > 0) {
     vec3 const d = s.position - wave.origin[i];
-    float const cos_light = -glm::dot(wave.direction[i], s.geometric);
-    float const pdf = light_pdf(scene.lights, m, glm::dot(d, d), cos_light) * area_ratio;
+    real const cos_light = -glm::dot(vec3(wave.direction[i]), s.geometric);
+    real const pdf = light_pdf(scene.lights, m, glm::dot(d, d), cos_light) * area_ratio;
     weight = weight_of_bsdf(scene.lights.how, wave.pdf[i], pdf);
   }
   wave.radiance[i] += wave.throughput[i] * m.emission * weight;
@@ -114,7 +114,7 @@ PT_HD void sample_lights(basic_wave const& wave, scene_view const& scene, std::u
   vec3 const wi = s.to_local(l.wi);
   if (!s.consistent(wi, l.wi)) return;
   bsdf_value const v = bsdf.value(s.wo, wi);
-  float const weight = l.delta ? 1.0f : weight_of_light(scene.lights.how, l.pdf, v.pdf);
+  real const weight = l.delta ? real(1) : weight_of_light(scene.lights.how, l.pdf, v.pdf);
   vec3 const light = wave.throughput[i] * v.f_cos * arriving<Set>(scene, l) * (weight / l.pdf);
   if (light == vec3{0}) return;
   vec3 const origin = s.start_towards(l.wi);
@@ -137,14 +137,14 @@ PT_HD void extend_path(basic_wave const& wave, std::uint32_t i, surface const& s
   wave.throughput[i] = vec3{0};
   if (!s.consistent(b.wi, wi)) return;
   if (wave.bounce + 1 >= wave.roulette_from) {
-    float const survival = glm::min(0.95f, max_component(throughput));
+    real const survival = glm::min(real(0.95), max_component(throughput));
     if (v.y >= survival) return;
     throughput /= survival;
   }
   wave.throughput[i] = throughput;
   wave.origin[i] = s.start_towards(wi);
   wave.direction[i] = glm::normalize(wi);
-  wave.pdf[i] = b.delta ? 0.0f : b.pdf;
+  wave.pdf[i] = b.delta ? real(0) : b.pdf;
 }
 
 /// The shader of an effect: emission, one light sample, one BSDF sample.
@@ -158,7 +158,7 @@ struct surface_shader {
         load_triangle<Set>(scene.triangles, scene.motion, wave.primitive[i], time_of<Set>(wave, i));
     surface const s = load_surface<Set>(scene, t, wave.barycentric[i], wave.direction[i]);
     if constexpr (std::is_same_v<Effect, effects::emitters>) {
-      float const ratio = area_ratio<Set>(scene.triangles, scene.motion, wave.primitive[i], t);
+      real const ratio = area_ratio<Set>(scene.triangles, scene.motion, wave.primitive[i], t);
       add_emission(wave, scene, i, s, ratio);
     }
     if (wave.bounce + 1 >= wave.max_depth) {
@@ -190,9 +190,9 @@ struct miss_shader {
     if constexpr (Set::template has<effects::environment>) {
       if (scene.lights.sky.width > 0) {
         vec2 const uv = scene.lights.sky.coordinates(wave.direction[i]);
-        float const pdf = wave.pdf[i];
-        float const weight =
-            pdf > 0 ? weight_of_bsdf(scene.lights.how, pdf, sky_pdf(scene.lights, uv)) : 1.0f;
+        real const pdf = wave.pdf[i];
+        real const weight =
+            pdf > 0 ? weight_of_bsdf(scene.lights.how, pdf, sky_pdf(scene.lights, uv)) : real(1);
         radiance += weight * scene.lights.sky.radiance(uv);
       }
     }

@@ -14,8 +14,8 @@ using deferred_shade::request_index;
 /// Half the width and height of the view at distance 1 (or of an orthographic view): a file states
 /// the vertical field, and the width follows from the shape of the picture, whatever aspect ratio
 /// the file names.
-PT_HD inline vec2 half_extent(camera const& view, float aspect) {
-  float const y = view.ortho_height > 0 ? view.ortho_height : view.tan_half_yfov;
+PT_HD inline vec2 half_extent(camera const& view, real aspect) {
+  real const y = view.ortho_height > 0 ? view.ortho_height : view.tan_half_yfov;
   return {y * aspect, y};
 }
 
@@ -29,10 +29,10 @@ struct generate_paths {
   PT_HD void operator()(request_index i) const {
     std::uint32_t const pixel = wave.pixel(i);
     vec2 const jitter = wave.random(i).pair(0);
-    auto const w = static_cast<float>(width), h = static_cast<float>(height);
+    auto const w = static_cast<real>(width), h = static_cast<real>(height);
     vec2 const half = half_extent(view, w / h);
-    float const x = ((static_cast<float>(pixel % width) + jitter.x) * 2 / w - 1) * half.x;
-    float const y = (1 - (static_cast<float>(pixel / width) + jitter.y) * 2 / h) * half.y;
+    real const x = ((static_cast<real>(pixel % width) + jitter.x) * 2 / w - 1) * half.x;
+    real const y = (1 - (static_cast<real>(pixel / width) + jitter.y) * 2 / h) * half.y;
     vec3 const aside = x * view.right + y * view.up;
     bool const parallel = view.ortho_height > 0;
     ray r{parallel ? view.position + aside : view.position,
@@ -64,7 +64,7 @@ struct find_hits {
       wave.id[i] = finished;
       return;
     }
-    float const time = time_of<Set>(wave, i);
+    real const time = time_of<Set>(wave, i);
     hit const h = find_hit<Set, false>(scene.bvh, scene.motion,
                                        {wave.origin[i], wave.direction[i], INFINITY}, time);
     wave.primitive[i] = h.primitive;
@@ -86,12 +86,12 @@ struct find_hits {
   }
 
  private:
-  PT_HD bool inside_glass(request_index i, hit const& h, shader kind, float time) const {
+  PT_HD bool inside_glass(request_index i, hit const& h, shader kind, real time) const {
     bool const glass =
         kind == shader_of<effects::smooth_glass> || kind == shader_of<effects::rough_glass>;
     if (!glass) return false;
     loaded_triangle<Set> t = load_triangle<Set>(scene.triangles, scene.motion, h.primitive, time);
-    return glm::dot(geometric_normal(t), wave.direction[i]) > 0;
+    return glm::dot(geometric_normal(t), vec3(wave.direction[i])) > 0;
   }
 };
 
@@ -104,7 +104,7 @@ struct trace_shadows {
   PT_HD void operator()(request_index i) const {
     if (wave.shadow_light[i] == vec3{0}) return;
     ray const r{wave.shadow_origin[i], wave.shadow_vector[i], 1};
-    float const time = time_of<Set>(wave, i);
+    real const time = time_of<Set>(wave, i);
     if (find_hit<Set, true>(scene.bvh, scene.motion, r, time).primitive == no_primitive)
       wave.radiance[i] += wave.shadow_light[i];
   }
@@ -132,7 +132,7 @@ struct count_rays {
 };
 
 PT_HD inline bool is_finite(vec3 c) {
-  float const total = c.x + c.y + c.z;
+  real const total = c.x + c.y + c.z;
   return total - total == 0;
 }
 

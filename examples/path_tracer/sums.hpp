@@ -18,17 +18,17 @@ struct pixel_sum<summation::in_double> {
 
 template <>
 struct pixel_sum<summation::in_float> {
-  vec3 total{0};
-  PT_HD void add(vec3 v) { total += v; }
+  rgb total{0};
+  PT_HD void add(vec3 v) { total += rgb(v); }
 };
 
 /// Keeps what rounding takes away, and gives it back with the next sample (Kahan 1965).
 template <>
 struct pixel_sum<summation::compensated> {
-  vec3 total{0}, lost{0};
+  rgb total{0}, lost{0};
   PT_HD void add(vec3 v) {
-    vec3 const due = v - lost;
-    vec3 const next = total + due;
+    rgb const due = rgb(v) - lost;
+    rgb const next = total + due;
     lost = (next - total) - due;
     total = next;
   }

@@ -34,7 +34,7 @@ PT_HD inline vec3 geometric_normal(triangle const& t) {
 struct surface {
   vec3 position;
   vec3 geometric;            ///< normal of the triangle, on the side of the viewer
-  float clearance;           ///< see clearance_of
+  real clearance;            ///< see clearance_of
   vec3 tangent, up, normal;  ///< the shading frame
   vec3 wo;                   ///< towards the viewer, in that frame; wo.z > 0
   vec2 uv;
@@ -60,14 +60,14 @@ struct surface {
 PT_HD inline void set_frame(surface& s, vec3 n, vec3 hint) {
   s.normal = n;
   vec3 const t = hint - n * glm::dot(n, hint);
-  float const length2 = glm::dot(t, t), hint2 = glm::dot(hint, hint);
-  if (length2 > 1e-12f * hint2 && length2 < INFINITY) {
+  real const length2 = glm::dot(t, t), hint2 = glm::dot(hint, hint);
+  if (length2 > real(1e-12) * hint2 && length2 < INFINITY) {
     s.tangent = t / std::sqrt(length2);
-    if (length2 < 0.25f * hint2)  // what cancellation has left of n
+    if (length2 < real(0.25) * hint2)  // what cancellation has left of n
       s.tangent = glm::normalize(s.tangent - n * glm::dot(n, s.tangent));
   } else {
-    float const sign = n.z < 0 ? -1.0f : 1.0f;
-    float const a = -1 / (sign + n.z);
+    real const sign = n.z < 0 ? real(-1) : real(1);
+    real const a = -1 / (sign + n.z);
     s.tangent = {1 + sign * n.x * n.x * a, sign * n.x * n.y * a, -sign * n.x};
   }
   s.up = glm::cross(n, s.tangent);
@@ -75,8 +75,8 @@ PT_HD inline void set_frame(surface& s, vec3 n, vec3 hint) {
 
 /// Bends `n` the least that lets the viewer, in direction `wo`, see its front.
 PT_HD inline vec3 face_viewer(vec3 n, vec3 wo) {
-  float const cos_o = glm::dot(n, wo);
-  return cos_o > 1e-3f ? n : glm::normalize(n + (1e-3f - cos_o) * wo);
+  real const cos_o = glm::dot(n, wo);
+  return cos_o > real(1e-3) ? n : glm::normalize(n + (real(1e-3) - cos_o) * wo);
 }
 
 /// How the position on a triangle changes with the texture coordinates u and v, up to a positive
@@ -87,7 +87,7 @@ struct texture_axes {
 PT_HD inline texture_axes axes_of(triangle const& t) {
   vec3 const e1 = t.position[1] - t.position[0], e2 = t.position[2] - t.position[0];
   vec2 const d1 = t.uv[1] - t.uv[0], d2 = t.uv[2] - t.uv[0];
-  float const det = d1.x * d2.y - d1.y * d2.x;
+  real const det = d1.x * d2.y - d1.y * d2.x;
   if (det == 0) return {};
   return {(e1 * d2.y - e2 * d1.y) / det, (e2 * d1.x - e1 * d2.x) / det};
 }
@@ -99,9 +99,9 @@ PT_HD inline vec3 mapped_normal(scene_view const& scene, triangle const& t, mate
   if (axes.u == vec3{0} && axes.v == vec3{0}) return n;
   surface frame;
   set_frame(frame, n, axes.u);
-  float const side = glm::dot(frame.up, axes.v) > 0 ? -1.0f : 1.0f;
+  real const side = glm::dot(frame.up, axes.v) > 0 ? real(-1) : real(1);
   vec4 const texel = sample_texture(scene.textures, m.normal_texture, uv);
-  vec3 const v = (vec3(texel) * 2.0f - 1.0f) * vec3{m.normal_scale, m.normal_scale, 1};
+  vec3 const v = (vec3(texel) * real(2) - real(1)) * vec3{m.normal_scale, m.normal_scale, 1};
   vec3 const bent = v.x * frame.tangent + side * v.y * frame.up + v.z * n;
   return glm::dot(bent, bent) > 0 ? glm::normalize(bent) : n;
 }
@@ -109,7 +109,7 @@ PT_HD inline vec3 mapped_normal(scene_view const& scene, triangle const& t, mate
 template <class Set>
 PT_HD surface load_surface(scene_view const& scene, loaded_triangle<Set> t, vec2 b,
                            vec3 direction) {
-  float const b0 = 1 - b.x - b.y;
+  real const b0 = 1 - b.x - b.y;
   surface s;
   s.position = t.position[0] +
                (b.x * (t.position[1] - t.position[0]) + b.y * (t.position[2] - t.position[0]));

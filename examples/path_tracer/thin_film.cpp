@@ -51,7 +51,7 @@ film_reflectance reflectance_of_film(double film, double thickness, vec3 f0) {
         std::max(static_cast<double>(k) / (film_reflectance::samples - 1), 1e-6);
     glm::dvec3 sum(0), weights(0);
     for (int w = 0; w < wavelengths; ++w) {
-      float const wavelength = sample_wavelength((static_cast<float>(w) + 0.5f) / wavelengths);
+      real const wavelength = sample_wavelength((static_cast<real>(w) + real(0.5)) / wavelengths);
       glm::dvec3 const color(color_of(wavelength));
       for (int c = 0; c < 3; ++c)
         sum[c] +=

@@ -11,10 +11,10 @@ struct film_reflectance {
   static constexpr int samples = 33;
   vec3 values[samples];
 
-  PT_HD vec3 operator()(float cos_theta) const {
-    float const x = glm::clamp(cos_theta, 0.0f, 1.0f) * static_cast<float>(samples - 1);
+  PT_HD vec3 operator()(real cos_theta) const {
+    real const x = glm::clamp(cos_theta, real(0), real(1)) * static_cast<real>(samples - 1);
     int const k = glm::min(static_cast<int>(x), samples - 2);
-    return glm::mix(values[k], values[k + 1], x - static_cast<float>(k));
+    return glm::mix(values[k], values[k + 1], x - static_cast<real>(k));
   }
 };
 

@@ -53,8 +53,10 @@ template <class Backend, class Set>
 class wave_storage {
  public:
   wave_storage(Backend const& backend, std::size_t paths)
-      : vectors_(backend.template make_array<vec3>(7 * paths)),
-        pdf_(backend.template make_array<float>(paths)),
+      : vectors_(backend.template make_array<vec3>(3 * paths)),
+        directions_(backend.template make_array<stored_direction>(paths)),
+        colors_(backend.template make_array<stored_color>(3 * paths)),
+        pdf_(backend.template make_array<real>(paths)),
         primitive_(backend.template make_array<std::uint32_t>(paths)),
         barycentric_(backend.template make_array<vec2>(paths)),
         id_(backend.template make_array<std::uint8_t>(paths)),
@@ -65,12 +67,13 @@ class wave_storage {
     vec3* const v = data_of(vectors_);
     wave_view<Set> w{};
     w.origin = v;
-    w.direction = v + n;
-    w.throughput = v + 2 * n;
-    w.radiance = v + 3 * n;
-    w.shadow_origin = v + 4 * n;
-    w.shadow_vector = v + 5 * n;
-    w.shadow_light = v + 6 * n;
+    w.shadow_origin = v + n;
+    w.shadow_vector = v + 2 * n;
+    w.direction = data_of(directions_);
+    stored_color* const c = data_of(colors_);
+    w.throughput = c;
+    w.radiance = c + n;
+    w.shadow_light = c + 2 * n;
     w.pdf = data_of(pdf_);
     w.primitive = data_of(primitive_);
     w.barycentric = data_of(barycentric_);
@@ -81,7 +84,9 @@ class wave_storage {
 
  private:
   array_of<Backend, vec3> vectors_;
-  array_of<Backend, float> pdf_;
+  array_of<Backend, stored_direction> directions_;
+  array_of<Backend, stored_color> colors_;
+  array_of<Backend, real> pdf_;
   array_of<Backend, std::uint32_t> primitive_;
   array_of<Backend, vec2> barycentric_;
   array_of<Backend, std::uint8_t> id_;

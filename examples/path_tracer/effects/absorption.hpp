@@ -14,10 +14,10 @@ namespace path_tracer::effects {
 struct absorption {
   static constexpr char const* name = "absorption";
   struct material_part {
-    float thickness = 0;  ///< 0: the surface has no inside
+    real thickness = 0;  ///< 0: the surface has no inside
     vec3 attenuation_color{1};
-    float attenuation_distance = 0;  ///< after which white light has that colour; 0: never
-    vec3 extinction{0};              ///< per unit of length in the world
+    real attenuation_distance = 0;  ///< after which white light has that colour; 0: never
+    vec3 extinction{0};             ///< per unit of length in the world
   };
   static constexpr property<material_part> material_properties[] = {
       number_property("extensions/KHR_materials_volume/thicknessFactor", &material_part::thickness,
@@ -33,7 +33,7 @@ struct absorption {
     if (m.thickness > 0 && m.attenuation_distance > 0)
       for (int k = 0; k < 3; ++k)
         m.extinction[k] =
-            -std::log(glm::max(m.attenuation_color[k], 1e-30f)) / m.attenuation_distance;
+            -std::log(glm::max(m.attenuation_color[k], real(1e-30))) / m.attenuation_distance;
   }
   template <class Material>
   static bool in_material(Material const& m) {
@@ -43,7 +43,7 @@ struct absorption {
   template <class Wave, class Point>
   PT_HD static void at_glass(Wave const& wave, std::uint32_t i, Point& p) {
     if (p.at.front || p.material.extinction == vec3{0}) return;
-    float const length = glm::length(p.at.position - wave.origin[i]);
+    real const length = glm::length(p.at.position - wave.origin[i]);
     wave.throughput[i] *= glm::exp(p.material.extinction * -length);
   }
 };

@@ -11,8 +11,8 @@ namespace path_tracer {
 /// GGX of two roughnesses, along the axes x and y of a frame that is turned against that of the
 /// surface (Heitz 2014, section 5.3).
 struct turned_ggx {
-  float alpha_x, alpha_y;
-  float cosine, sine;  ///< of the angle from the tangent to the x axis
+  real alpha_x, alpha_y;
+  real cosine, sine;  ///< of the angle from the tangent to the x axis
 
   PT_HD vec3 turned(vec3 v) const {
     return {cosine * v.x + sine * v.y, cosine * v.y - sine * v.x, v.z};
@@ -20,40 +20,41 @@ struct turned_ggx {
   PT_HD vec3 turned_back(vec3 v) const {
     return {cosine * v.x - sine * v.y, cosine * v.y + sine * v.x, v.z};
   }
-  PT_HD float d(vec3 m) const {
+  PT_HD real d(vec3 m) const {
     vec3 const t = turned(m);
-    float const x = t.x / alpha_x, y = t.y / alpha_y;
-    float const e = x * x + y * y + t.z * t.z;
+    real const x = t.x / alpha_x, y = t.y / alpha_y;
+    real const e = x * x + y * y + t.z * t.z;
     return 1 / (pi * alpha_x * alpha_y * e * e);
   }
-  PT_HD float lambda(vec3 w) const {
+  PT_HD real lambda(vec3 w) const {
     vec3 const t = turned(w);
-    float const x = t.x * alpha_x, y = t.y * alpha_y;
-    return 0.5f * (std::sqrt(1 + (x * x + y * y) / (t.z * t.z)) - 1);
+    real const x = t.x * alpha_x, y = t.y * alpha_y;
+    return real(0.5) * (std::sqrt(1 + (x * x + y * y) / (t.z * t.z)) - 1);
   }
-  PT_HD float g1(vec3 w) const { return 1 / (1 + lambda(w)); }
-  PT_HD float g2(vec3 wo, vec3 wi) const { return 1 / (1 + lambda(wo) + lambda(wi)); }
+  PT_HD real g1(vec3 w) const { return 1 / (1 + lambda(w)); }
+  PT_HD real g2(vec3 wo, vec3 wi) const { return 1 / (1 + lambda(wo) + lambda(wi)); }
 
   /// A visible normal, see ggx::sample.
   PT_HD vec3 sample(vec3 wo, vec2 u) const {
     vec3 const t = turned(wo);
     vec3 const w = glm::normalize(vec3{t.x * alpha_x, t.y * alpha_y, t.z});
     vec3 const h = polar((1 - u.y) * (1 + w.z) - w.z, 2 * pi * u.x) + w;
-    return turned_back(glm::normalize(vec3{h.x * alpha_x, h.y * alpha_y, glm::max(h.z, 1e-12f)}));
+    return turned_back(
+        glm::normalize(vec3{h.x * alpha_x, h.y * alpha_y, glm::max(h.z, real(1e-12))}));
   }
 };
 
 /// The lobe of a brushed surface.
 struct brushed_lobe : basic_specular_lobe<turned_ggx> {
   /// The roughness that masks facets towards `w` as this lobe does.
-  PT_HD float roughness_from(vec3 w) const {
+  PT_HD real roughness_from(vec3 w) const {
     vec3 const t = distribution.turned(w);
-    float const x = t.x * distribution.alpha_x, y = t.y * distribution.alpha_y;
-    float const length2 = t.x * t.x + t.y * t.y;
+    real const x = t.x * distribution.alpha_x, y = t.y * distribution.alpha_y;
+    real const length2 = t.x * t.x + t.y * t.y;
     return length2 > 0 ? std::sqrt(std::sqrt((x * x + y * y) / length2)) : least_roughness();
   }
-  PT_HD float least_roughness() const { return std::sqrt(distribution.alpha_y); }
-  PT_HD float most_roughness() const { return std::sqrt(distribution.alpha_x); }
+  PT_HD real least_roughness() const { return std::sqrt(distribution.alpha_y); }
+  PT_HD real most_roughness() const { return std::sqrt(distribution.alpha_x); }
 };
 
 namespace effects {
@@ -62,8 +63,8 @@ namespace effects {
 struct anisotropy {
   static constexpr char const* name = "anisotropy";
   struct material_part {
-    float anisotropy = 0;
-    float anisotropy_rotation = 0;  ///< radians, counter-clockwise from the direction of u
+    real anisotropy = 0;
+    real anisotropy_rotation = 0;  ///< radians, counter-clockwise from the direction of u
   };
   static constexpr property<material_part> material_properties[] = {
       number_property("extensions/KHR_materials_anisotropy/anisotropyStrength",
@@ -81,10 +82,10 @@ struct anisotropy {
     auto const& m = p.material;
     plastic_terms const terms(p.plastic_parameters(p.color));
     vec2 const u = p.direction_of_u();
-    float const c = std::cos(m.anisotropy_rotation),
-                s = p.side_of_v() * std::sin(m.anisotropy_rotation);
-    float const alpha = terms.lobe.distribution.alpha;
-    turned_ggx const distribution{glm::mix(alpha, 1.0f, m.anisotropy * m.anisotropy), alpha,
+    real const c = std::cos(m.anisotropy_rotation),
+               s = p.side_of_v() * std::sin(m.anisotropy_rotation);
+    real const alpha = terms.lobe.distribution.alpha;
+    turned_ggx const distribution{glm::mix(alpha, real(1), m.anisotropy * m.anisotropy), alpha,
                                   c * u.x - s * u.y, s * u.x + c * u.y};
     return {brushed_lobe{{distribution, terms.lobe.f0, terms.lobe.f90}}, terms, p.scene.tables};
   }

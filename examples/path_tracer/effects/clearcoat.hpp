@@ -8,19 +8,19 @@ namespace path_tracer {
 
 /// The lobe of KHR_materials_clearcoat: a dielectric of F0 0.04, scaled by its factor.
 struct coat_lobe {
-  float factor, roughness;
+  real factor, roughness;
   albedo_tables const* tables;
 
   PT_HD bsdf_value value(vec3 wo, vec3 wi) const { return lobe().value(wo, wi); }
   PT_HD vec3 direction(vec3 wo, vec3 u) const { return lobe().direction(wo, u); }
-  PT_HD float albedo(float cos_theta) const {
+  PT_HD real albedo(real cos_theta) const {
     vec2 const e = tables->ggx(cos_theta, roughness);
-    return factor * (0.04f * e.x + e.y);
+    return factor * (real(0.04) * e.x + e.y);
   }
 
  private:
   PT_HD specular_lobe lobe() const {
-    return {{alpha_of(roughness)}, vec3{0.04f * factor}, vec3{factor}};
+    return {{alpha_of(roughness)}, vec3{real(0.04) * factor}, vec3{factor}};
   }
 };
 namespace effects {
@@ -29,7 +29,7 @@ namespace effects {
 struct clearcoat {
   static constexpr char const* name = "clearcoat";
   struct material_part {
-    float clearcoat = 0, clearcoat_roughness = 0;
+    real clearcoat = 0, clearcoat_roughness = 0;
   };
   static constexpr property<material_part> material_properties[] = {
       number_property("extensions/KHR_materials_clearcoat/clearcoatFactor",

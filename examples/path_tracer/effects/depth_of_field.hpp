@@ -13,8 +13,8 @@ namespace path_tracer::effects {
 struct depth_of_field {
   static constexpr char const* name = "depth-of-field";
   struct camera_part {
-    float aperture_radius = 0;
-    float focus_distance = 1;
+    real aperture_radius = 0;
+    real focus_distance = 1;
   };
   static constexpr property<camera_part> camera_properties[] = {
       number_property("extras/aperture_radius", &camera_part::aperture_radius, 0, 1e6),
@@ -29,7 +29,7 @@ struct depth_of_field {
   PT_HD static void camera_ray(Camera const& view, Random const& random, Ray& r) {
     if (!(view.aperture_radius > 0) || view.ortho_height > 0) return;
     vec2 const u = random.pair(path_draw::lens);
-    float const radius = view.aperture_radius * std::sqrt(u.x), phi = 2 * pi * u.y;
+    real const radius = view.aperture_radius * std::sqrt(u.x), phi = 2 * pi * u.y;
     vec3 const aside = radius * (std::cos(phi) * view.right + std::sin(phi) * view.up);
     vec3 const focus = r.direction * (view.focus_distance / glm::dot(r.direction, view.forward));
     r.origin += aside;

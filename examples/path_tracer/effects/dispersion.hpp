@@ -13,9 +13,9 @@ namespace path_tracer::effects {
 /// The refractive index at a wavelength in nanometres of a glass that has the index `ior` at 587.6
 /// nm, as KHR_materials_dispersion has it: by Cauchy's formula from the Abbe number, which is 20 /
 /// `dispersion`.
-PT_HD inline float dispersive_ior(float ior, float dispersion, float wavelength) {
-  float const spread = (ior - 1) * dispersion / 20;
-  return glm::max(ior + spread * (523655 / (wavelength * wavelength) - 1.5168f), 1.0f);
+PT_HD inline real dispersive_ior(real ior, real dispersion, real wavelength) {
+  real const spread = (ior - 1) * dispersion / 20;
+  return glm::max(ior + spread * (523655 / (wavelength * wavelength) - real(1.5168)), real(1));
 }
 
 /// Glass that bends colours differently (KHR_materials_dispersion). At the first such glass a path
@@ -23,11 +23,11 @@ PT_HD inline float dispersive_ior(float ior, float dispersion, float wavelength)
 struct dispersion {
   static constexpr char const* name = "dispersion";
   struct material_part {
-    float dispersion = 0;
+    real dispersion = 0;
   };
   static constexpr property<material_part> material_properties[] = {number_property(
       "extensions/KHR_materials_dispersion/dispersion", &material_part::dispersion, 0, 1e3)};
-  using path_state = float;  ///< the wavelength in nanometres; 0: all
+  using path_state = real;  ///< the wavelength in nanometres; 0: all
 
   template <class Material>
   static bool in_material(Material const& m) {
@@ -37,7 +37,7 @@ struct dispersion {
   template <class Wave, class Point>
   PT_HD static void at_glass(Wave const& wave, std::uint32_t i, Point& p) {
     if (p.material.dispersion == 0) return;
-    float& wavelength = wave.template state<dispersion>(i);
+    real& wavelength = wave.template state<dispersion>(i);
     if (wavelength == 0) {
       wavelength = sample_wavelength(wave.random(i).pair(path_draw::wavelength).x);
       wave.throughput[i] *= color_of(wavelength);

@@ -14,8 +14,8 @@ struct environment {
   static constexpr char const* name = "environment";
   struct scene_part {
     std::string environment_file;
-    float environment_intensity = 1;
-    float environment_rotation = 0;  ///< radians about y, counter-clockwise seen from above
+    real environment_intensity = 1;
+    real environment_rotation = 0;  ///< radians about y, counter-clockwise seen from above
     environment_map sky;
   };
   static constexpr property<scene_part> scene_properties[] = {

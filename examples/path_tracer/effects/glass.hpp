@@ -16,7 +16,7 @@ bool is_glass(Material const& m) {
 /// (alpha < 0.0009) is narrower than a pixel.
 struct smooth_glass {
   static constexpr char const* name = "smooth-glass";
-  static constexpr float below = 0.03f;
+  static constexpr real below = real(0.03);
 
   template <class Material>
   static bool fits(Material const& m) {

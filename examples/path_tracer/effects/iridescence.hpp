@@ -13,15 +13,15 @@ namespace path_tracer {
 struct film_lobe {
   specular_lobe bare;
   film_reflectance const* film;
-  float share;
+  real share;
 
   PT_HD bsdf_value value(vec3 wo, vec3 wi) const {
     if (wi.z <= 0) return {};
     ggx const& distribution = bare.distribution;
     vec3 const m = glm::normalize(wo + wi);
-    float const cosine = glm::dot(wo, m);
+    real const cosine = glm::dot(wo, m);
     vec3 const f = glm::mix(schlick(bare.f0, bare.f90, cosine), (*film)(cosine), share);
-    float const d = distribution.d(m) / (4 * wo.z);
+    real const d = distribution.d(m) / (4 * wo.z);
     return {f * (d * distribution.g2(wo, wi)), d * distribution.g1(wo)};
   }
   PT_HD vec3 direction(vec3 wo, vec3 u) const { return bare.direction(wo, u); }
@@ -34,11 +34,11 @@ namespace effects {
 struct iridescence {
   static constexpr char const* name = "iridescence";
   struct material_part {
-    float iridescence = 0;
-    float film_ior = 1.3f;
-    float film_thickness = 400;  ///< nanometres
-    film_reflectance film{};     ///< of the film on this material
-    float film_f0 = 0;           ///< Schlick's term with it is nowhere below the film's
+    real iridescence = 0;
+    real film_ior = real(1.3);
+    real film_thickness = 400;  ///< nanometres
+    film_reflectance film{};    ///< of the film on this material
+    real film_f0 = 0;           ///< Schlick's term with it is nowhere below the film's
   };
   static constexpr property<material_part> material_properties[] = {
       number_property("extensions/KHR_materials_iridescence/iridescenceFactor",
@@ -59,7 +59,7 @@ struct iridescence {
         reflectance_of_film(m.film_ior, m.film_thickness, glm::mix(bare, m.base_color, m.metallic));
     m.film_f0 = 0;
     for (int k = 0; k < film_reflectance::samples; ++k) {
-      float const weight = schlick_weight(static_cast<float>(k) / (film_reflectance::samples - 1));
+      real const weight = schlick_weight(static_cast<real>(k) / (film_reflectance::samples - 1));
       if (weight < 1)
         m.film_f0 = std::max(m.film_f0, (max_component(m.film.values[k]) - weight) / (1 - weight));
     }
@@ -71,7 +71,7 @@ struct iridescence {
     plastic_terms terms(p.plastic_parameters(p.color));
     film_lobe const lobe{terms.lobe, &m.film, m.iridescence};
     terms.f0 = glm::max(terms.f0, m.film_f0);
-    terms.f90 = glm::mix(terms.f90, 1.0f, m.iridescence);
+    terms.f90 = glm::mix(terms.f90, real(1), m.iridescence);
     terms.guess_f0 = glm::mix(terms.guess_f0, luminance(m.film(1)), m.iridescence);
     return {lobe, terms, p.scene.tables};
   }

@@ -22,7 +22,7 @@ namespace effects {
 struct motion_blur {
   static constexpr char const* name = "motion-blur";
   struct camera_part {
-    float shutter_open = 0, shutter_close = 0;
+    real shutter_open = 0, shutter_close = 0;
   };
   struct scene_part {
     std::vector<triangle_motion> motion;  ///< of each triangle; empty: nothing moves

@@ -9,7 +9,7 @@ namespace path_tracer {
 /// The lobe of KHR_materials_sheen.
 struct sheen_lobe {
   vec3 color;
-  float roughness;
+  real roughness;
   albedo_tables const* tables;
 
   PT_HD bsdf_value value(vec3 wo, vec3 wi) const {
@@ -17,7 +17,7 @@ struct sheen_lobe {
     return {color * charlie{sheen_alpha(roughness)}.reflect(wo, wi), 1 / (2 * pi)};
   }
   PT_HD vec3 direction(vec3, vec3 u) const { return polar(u.y, 2 * pi * u.x); }
-  PT_HD float albedo(float cos_theta) const {
+  PT_HD real albedo(real cos_theta) const {
     return max_component(color) * tables->sheen(cos_theta, roughness);
   }
 };
@@ -28,7 +28,7 @@ struct sheen {
   static constexpr char const* name = "sheen";
   struct material_part {
     vec3 sheen_color{0};
-    float sheen_roughness = 0;
+    real sheen_roughness = 0;
   };
   static constexpr property<material_part> material_properties[] = {
       color_property("extensions/KHR_materials_sheen/sheenColorFactor", &material_part::sheen_color,

@@ -24,7 +24,7 @@ struct normal_maps {
   static constexpr char const* name = "normal-maps";
   struct material_part {
     std::int32_t normal_texture = no_texture;
-    float normal_scale = 1;
+    real normal_scale = 1;
   };
 
   template <class Material>
