@@ -13,7 +13,7 @@ set(layers
   "types|blocks|system|bits|cuda/(runtime|warp|overlap)"
   "counts|math|prefetch|cuda/(allocator|launch|load_keys|rank_in_warp|thread_counts)"
   "shader_table|workspace|cuda/(tile_sort|tile_rows|host_copy)"
-  "records"
+  "records|gaps"
   "lanes|cuda/(configuration|staging)"
   "segment"
   "grouping/cuda/(radix_sort|compact|bucket_tile)"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cuda_runtime.h>
+#include <thrust/iterator/transform_iterator.h>
 #include <cstdint>
 #include <type_traits>
 
@@ -10,6 +11,30 @@
 
 namespace deferred_shade::detail {
 
+/// Ids that lie in memory, or are made one by one of what lies there.
+template <class Ids>
+struct ids_in_memory {
+  static constexpr bool possible = false;
+};
+template <class Id>
+struct ids_in_memory<Id*> {
+  static constexpr bool possible = true;
+  using stored = std::remove_cv_t<Id>;
+  static __device__ stored const* pointer(Id* ids) { return ids; }
+  template <class Value>
+  static __device__ Value made_of(Id*, Value id) {
+    return id;
+  }
+};
+template <class Function, class Id>
+struct ids_in_memory<thrust::transform_iterator<Function, Id*, shader_id, shader_id>> {
+  static constexpr bool possible = true;
+  using iterator = thrust::transform_iterator<Function, Id*, shader_id, shader_id>;
+  using stored = std::remove_cv_t<Id>;
+  static __device__ stored const* pointer(iterator ids) { return ids.base(); }
+  static __device__ shader_id made_of(iterator ids, stored id) { return ids.functor()(id); }
+};
+
 /// The shaders of `Items` neighbouring requests, of which `size` exist: keys[i] is the shader of
 /// request `first + i`, or `Shaders` where it names none or does not exist.
 ///
@@ -17,11 +42,12 @@ namespace deferred_shade::detail {
 template <shader_id Shaders, std::uint32_t Items, class Ids>
 __device__ void load_neighbours(Ids const& ids, request_index first, std::uint32_t size,
                                 std::uint32_t (&keys)[Items]) {
-  if constexpr (std::is_pointer_v<Ids>) {
-    using id = std::remove_cv_t<std::remove_pointer_t<Ids>>;
+  using memory = ids_in_memory<Ids>;
+  if constexpr (memory::possible) {
+    using id = typename memory::stored;
     constexpr std::uint32_t per_vector = sizeof(uint4) / sizeof(id);
     if constexpr (Items % per_vector == 0) {
-      auto const* const vectors = reinterpret_cast<uint4 const*>(ids + first);
+      auto const* const vectors = reinterpret_cast<uint4 const*>(memory::pointer(ids) + first);
       if (size >= Items && reinterpret_cast<std::uintptr_t>(vectors) % sizeof(uint4) == 0) {
 #pragma unroll
         for (std::uint32_t v = 0; v < Items / per_vector; ++v) {
@@ -30,12 +56,13 @@ __device__ void load_neighbours(Ids const& ids, request_index first, std::uint32
           std::uint32_t const words[] = {vector.x, vector.y, vector.z, vector.w};
 #pragma unroll
           for (std::uint32_t i = 0; i < per_vector; ++i) {
+            shader_id key;
             if constexpr (std::is_same_v<id, std::uint8_t>) {  // one instruction less for each
-              std::uint32_t const byte = __byte_perm(words[i / 4], 0, 0x4440 + i % 4);
-              keys[v * per_vector + i] = min(byte, Shaders);
+              key = memory::made_of(ids, __byte_perm(words[i / 4], 0, 0x4440 + i % 4));
             } else {
-              keys[v * per_vector + i] = shader_of(loaded, i, Shaders);
+              key = static_cast<shader_id>(memory::made_of(ids, loaded[i]));
             }
+            keys[v * per_vector + i] = min(key, Shaders);
           }
         }
         return;

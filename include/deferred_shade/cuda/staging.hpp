@@ -23,37 +23,15 @@ template <class T>
 inline constexpr bool is_extended_lambda = false;
 #endif
 
-/// The shaders of a table without those that shader_table::only has left out.
-template <class... Shaders>
-struct shader_list {};
-template <class... Present, class Shader>
-shader_list<Present..., Shader> operator+(shader_list<Present...>, shader_list<Shader>);
-template <class... Present>
-shader_list<Present...> operator+(shader_list<Present...>, shader_list<no_shader>);
-template <class... Shaders>
-using present_shaders = decltype((shader_list<>{} + ... + shader_list<Shaders>{}));
-
-template <class... Shaders>
-constexpr std::uint32_t find_present_bits() {
-  bool const present[] = {!std::is_same_v<Shaders, no_shader>...};
-  std::uint32_t bits = 0;
-  for (std::size_t k = 0; k < sizeof...(Shaders); ++k) bits |= std::uint32_t{present[k]} << k;
-  return bits;
-}
-
-/// Bit k: whether the table has a shader k. For tables of at most 31.
-template <class... Shaders>
-inline constexpr std::uint32_t present_bits = find_present_bits<Shaders...>();
-
 /// What record shaders of one table have in common where their requests can pass through shared
 /// memory: one type of source, of sink and of result, all trivially copyable, and small records.
-template <class Present>
+template <class... Shaders>
 struct common_records {
   static constexpr bool possible = false;
 };
 
 template <class Source, class Sink, class... Functions>
-struct common_records<shader_list<record_shader<Source, Functions, Sink>...>> {
+struct common_records<record_shader<Source, Functions, Sink>...> {
   using source_type = Source;
   using sink_type = Sink;
   template <class Function>
@@ -87,14 +65,8 @@ struct staging_if_small {
   static constexpr bool possible = false;
 };
 template <class... Shaders>
-struct staging_if_small<true, Shaders...> : common_records<present_shaders<Shaders...>> {};
+struct staging_if_small<true, Shaders...> : common_records<Shaders...> {};
 template <class... Shaders>
 using staging = staging_if_small<sizeof...(Shaders) <= 16, Shaders...>;
-
-/// The first shader that `only` has not left out of a table.
-template <class... Shaders>
-DEFERRED_SHADE_HOST_DEVICE auto const& first_of(shader_table<Shaders...> const& shaders) {
-  return shaders.template get<shader_table<Shaders...>::first_id()>();
-}
 
 }  // namespace deferred_shade::detail

@@ -5,7 +5,9 @@
 #include <cstddef>
 #include <initializer_list>
 
+#include <deferred_shade/gaps.hpp>
 #include <deferred_shade/shader_table.hpp>
+#include <deferred_shade/system.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade {
@@ -92,7 +94,8 @@ struct specialized<Schedule, variants<Variants...>, Shaders> {
     std::size_t const chosen = variant();
     std::size_t number = 0;
     auto const run = [&](auto const& table) {
-      schedule(exec, n, ids, table.expecting(occurring), scratch);
+      detail::run_schedule(detail::system_of<Policy>{}, schedule, exec, n, ids,
+                           table.expecting(occurring), scratch);
     };
     bool const ran =
         ((chosen == number++ && (run(detail::variant_traits<Variants>::table(shaders)), true)) ||

@@ -41,12 +41,11 @@ __global__ void records_kernel(Count n, Ids ids,
   if (p >= size_of(n)) return;
   auto const i = static_cast<request_index>(p);
   shader_id const id = shader_of(ids, i, sizeof...(Shaders));
-  constexpr std::uint32_t present = present_bits<Shaders...>;
-  if ((present >> id & 1U) == 0) return;
+  if (id == sizeof...(Shaders)) return;
 
   auto const at_place = [&](auto const& f) {
     if (one_place) {
-      f(first_of(shaders));
+      f(shaders.template get<0>());
     } else {
       shaders.visit(id, f);
     }
@@ -81,7 +80,7 @@ bool have_one_place(shader_table<Shaders...> const& shaders) {
   auto const same = [](auto const& a, auto const& b) {
     return std::memcmp(&a, &b, sizeof(a)) == 0;  // for all their types may lack a comparison
   };
-  auto const& first = first_of(shaders);
+  auto const& first = shaders.template get<0>();
   bool result = true;
   shaders.for_each([&](auto, auto const& shader) {
     result = result && same(shader.source, first.source) && same(shader.sink, first.sink);

@@ -58,7 +58,8 @@ __global__ void __launch_bounds__(staged_threads<Shaders...>)
 
   if constexpr (records::copies_words) {
     if (one_source) {
-      auto const* const words = reinterpret_cast<uint4 const*>(first_of(shaders).source + first);
+      auto const* const words =
+          reinterpret_cast<uint4 const*>(shaders.template get<0>().source + first);
       auto const count = static_cast<std::uint32_t>(size * (records::slot / sizeof(uint4)));
       for (std::uint32_t w = threadIdx.x; w < count; w += threads) {
         __pipeline_memcpy_async(&slots[w], &words[w], sizeof(uint4));
@@ -75,13 +76,6 @@ __global__ void __launch_bounds__(staged_threads<Shaders...>)
   std::uint32_t keys[Items];
   std::uint32_t places[Items];
   sort::load(ids, first, size, keys);
-  constexpr std::uint32_t present = present_bits<Shaders...>;
-  if constexpr (present != (std::uint32_t{1} << sizeof...(Shaders)) - 1) {
-#pragma unroll
-    for (std::uint32_t item = 0; item < Items; ++item) {  // a shader that is left out is none
-      if ((present >> keys[item] & 1U) == 0) keys[item] = sizeof...(Shaders);
-    }
-  }
   sort::find_places(temporary, keys, places, starts);
   __syncthreads();
 #pragma unroll
@@ -124,7 +118,7 @@ void run_staged(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> c
   bool one_source = records::copies_words;
   if constexpr (records::copies_words) {
     shaders.for_each([&](auto, auto const& shader) {
-      one_source = one_source && shader.source == first_of(shaders).source;
+      one_source = one_source && shader.source == shaders.template get<0>().source;
     });
   }
   launch<&staged_kernel<items, Count, Ids, Shaders...>>(
