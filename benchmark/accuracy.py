@@ -7,12 +7,15 @@
 renders every scene by every setting below with several seeds, compares the pictures with a reference, and
 appends one line of JSON for each setting. A setting that the file has is not measured again: an interrupted
 run goes on where it was. References and unfinished pictures lie in --cache, by names that say scene, size,
-seed and samples. benchmark/accuracy_report.py makes tables and plots. Needs NumPy; FLIP is filled in where the
-package flip-evaluator is installed.
+seed, samples and precision. benchmark/accuracy_report.py makes tables and plots. Needs NumPy; FLIP is filled in
+where the package flip-evaluator is installed. The programs path_tracer_double, path_tracer_fast and
+path_tracer_compact (cmake -DPATH_TRACER_ACCURACIES=ON) lie beside PATH_TRACER; the first makes the references.
 
 Errors are relative to the reference r: (x - r)^2 / (r^2 + 1e-2 m^2), where m is the mean of the reference,
 averaged over pixels and channels. Of several seeds' pictures, their variance and the square of their mean's
-distance from the reference (less what is left of the variance in both) are told apart.
+distance from the reference (less what is left of the variance in both) are told apart. What only rounds differently
+is compared with the same samples in double precision as well, where noise does not hide it: `rounding`, the root
+mean square of that difference, relative as above, and its median.
 """
 import argparse
 import hashlib
@@ -31,7 +34,11 @@ except ImportError:
     flip_evaluator = None
 
 REFERENCE_SEEDS = (1000001, 1000002)
-BASE = {"spp": 16, "max-depth": 16, "roulette": 5, "estimator": "mis", "sums": "double", "octaves": 16}
+BASE = {"spp": 16, "max-depth": 16, "roulette": 5, "estimator": "mis", "sums": "double", "octaves": 16,
+        "precision": "float", "storage": "full"}
+# What is another program, by the ending of its name, and not an option.
+BUILDS = {"precision": {"float": "", "double": "_double", "fast": "_fast"}, "storage": {"full": "", "compact": "_compact"}}
+EXACT = {"precision": "double", "storage": "full", "sums": "double"}
 ONE_AT_A_TIME = {
     "spp": [1, 2, 4, 8, 16, 32, 64, 128],
     "max-depth": [2, 3, 4, 6, 8, 32],
@@ -39,11 +46,15 @@ ONE_AT_A_TIME = {
     "estimator": ["bsdf", "light"],
     "sums": ["compensated", "float"],
     "octaves": [1, 2, 3],
+    "precision": ["double", "fast"],
+    "storage": ["compact"],
 }
 TOGETHER = [{"max-depth": 4, "spp": 4}, {"max-depth": 4, "spp": 64}, {"max-depth": 8, "spp": 64},
             {"max-depth": 8, "roulette": 2, "spp": 64}, {"max-depth": 4, "roulette": 1, "spp": 64},
             {"estimator": "light", "max-depth": 4, "spp": 64}, {"estimator": "light", "spp": 64},
-            {"estimator": "bsdf", "spp": 64}, {"sums": "float", "spp": 128}]
+            {"estimator": "bsdf", "spp": 64}, {"sums": "float", "spp": 128},
+            {"precision": "fast", "spp": 64}, {"precision": "double", "spp": 64}, {"storage": "compact", "spp": 64},
+            {"max-depth": 8, "precision": "fast", "spp": 64}]
 
 
 def settings():
@@ -68,11 +79,12 @@ def render(arguments, scene, setting, seed, name):
     picture, report = arguments.cache / (name + ".pfm"), arguments.cache / (name + ".json")
     if not report.exists() or not picture.exists():
         unfinished = arguments.cache / (name + ".part.json")
-        command = [arguments.path_tracer, str(scene), "-o", str(picture), "--quiet", "--report", str(unfinished),
+        endings = [endings[setting[knob]] for knob, endings in BUILDS.items()]
+        command = [arguments.path_tracer + "".join(endings), str(scene), "-o", str(picture), "--quiet", "--report", str(unfinished),
                    "--backend", arguments.backend, "--schedule", arguments.schedule, "--seed", str(seed),
                    "--width", str(arguments.width), "--height", str(arguments.height)]
         for knob, value in setting.items():
-            command += ["--" + knob, str(value)]
+            command += [] if knob in BUILDS else ["--" + knob, str(value)]
         subprocess.run(command, check=True)
         unfinished.replace(report)
     run = json.loads(report.read_text(encoding="utf-8"))["schedules"][0]
@@ -87,10 +99,9 @@ def forget(arguments, name):
 def reference(arguments, scene):
     """The mean of two pictures with many samples and deep paths, and the relative error that their
     difference shows the mean to have."""
-    setting = dict(BASE, **{"spp": arguments.reference_spp, "max-depth": 64, "roulette": 8})
-    size = f"{arguments.width}x{arguments.height}"
-    halves = [render(arguments, scene, setting, seed, f"{scene.stem}-{size}-seed{seed}-spp{arguments.reference_spp}")[0]
-              for seed in REFERENCE_SEEDS]
+    setting = dict(BASE, **{"spp": arguments.reference_spp, "max-depth": 64, "roulette": 8, "precision": "double"})
+    name = f"{scene.stem}-{arguments.width}x{arguments.height}-double-spp{arguments.reference_spp}-seed"
+    halves = [render(arguments, scene, setting, seed, name + str(seed))[0] for seed in REFERENCE_SEEDS]
     mean = (halves[0] + halves[1]) / 2
     return mean, float(numpy.mean((halves[0] - halves[1]) ** 2 / 4 / scale(mean)))
 
@@ -110,11 +121,24 @@ def flip(r, x):
     return float(flip_evaluator.evaluate(shown(r), shown(x), "LDR")[1])
 
 
-def measure(arguments, scene, setting, truth, truth_error):
+def render_seeds(arguments, scene, setting):
     what = json.dumps([arguments.backend, arguments.schedule, arguments.commit, setting], sort_keys=True)
     digest = hashlib.sha256(what.encode()).hexdigest()[:12]
     names = [f"{scene.stem}-{arguments.width}x{arguments.height}-{digest}-seed{seed}" for seed in range(arguments.seeds)]
-    runs = [render(arguments, scene, setting, seed, name) for seed, name in enumerate(names)]
+    return [render(arguments, scene, setting, seed, name) for seed, name in enumerate(names)], names
+
+
+def rounding(arguments, scene, setting, pictures, relative):
+    changed = {knob for knob, value in setting.items() if BASE[knob] != value}
+    if changed == {"spp"} or not changed <= {"spp", *EXACT}:
+        return None, []
+    runs, names = render_seeds(arguments, scene, dict(setting, **EXACT))
+    difference = numpy.abs(pictures - numpy.array([picture for picture, _, _ in runs])) / numpy.sqrt(relative)
+    return {"rms": float(numpy.sqrt(numpy.mean(difference ** 2))), "median": float(numpy.median(difference))}, names
+
+
+def measure(arguments, scene, setting, truth, truth_error):
+    runs, names = render_seeds(arguments, scene, setting)
     pictures = numpy.array([picture for picture, _, _ in runs])
     if not numpy.isfinite(pictures).all():
         raise ValueError(f"{scene.stem}: a picture has a pixel that is not finite")
@@ -135,8 +159,9 @@ def measure(arguments, scene, setting, truth, truth_error):
         "flip": flip(truth, pictures[0]),
         "discarded_samples": sum(d for _, _, d in runs),
     }
+    result["rounding"], exact_names = rounding(arguments, scene, setting, pictures, relative)
     result["efficiency"] = 1 / (result["relative_mse"] * result["seconds"])
-    return result, names
+    return result, set(names + exact_names)
 
 
 def main():

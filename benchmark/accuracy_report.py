@@ -61,13 +61,14 @@ def table(path):
         print(f"### {scene}\n\n{first['machine']}, commit {first['commit']}, backend {first['backend']}, "
               f"{first['width']} x {first['height']}, {first['seeds']} seeds. Reference: {first['reference_spp']} samples, "
               f"its own relative error {100 * math.sqrt(first['reference_mse']):.2g} %.\n")
-        print("| setting | seconds | spread | error | variance | bias² | 99.9 % below | FLIP | efficiency |")
-        print("|---" * 9 + "|")
+        print("| setting | seconds | spread | error | variance | bias² | 99.9 % below | FLIP | rounding | efficiency |")
+        print("|---" * 10 + "|")
         for r in sorted(results, key=lambda r: (len(r["changes"]), name(r).split()[0], r["seconds"])):
             shown = "" if r["flip"] is None else f"{r['flip']:.3f}"
+            rounding = f"{r['rounding']['rms']:.1g} ({r['rounding']['median']:.0e})" if r.get("rounding") else ""
             print(f"| {name(r)} | {r['seconds']:.3f} | {100 * r['seconds_spread'] / r['seconds']:.0f} % "
                   f"| {100 * math.sqrt(r['relative_mse']):.2g} % | {r['relative_variance']:.2g} "
-                  f"| {r['relative_bias2']:.1g} | {r['p999']:.2g} | {shown} "
+                  f"| {r['relative_bias2']:.1g} | {r['p999']:.2g} | {shown} | {rounding} "
                   f"| {r['efficiency'] / base['efficiency']:.2f} |")
         slope, _ = line_through([(math.log(spp), math.log(r["relative_variance"]))
                                  for spp, r in only_samples_differ(results)])
