@@ -5,6 +5,7 @@
     test/mutations.py                       # all of the table below, some minutes each on one core
     test/mutations.py --only fresnel,basis  # these
     test/mutations.py --list                # names, and the test that each must turn red
+    test/mutations.py --check               # only whether each finds its text, which takes no time
 
 Copies the sources to a temporary folder, or to --folder, which is kept: a second run compiles less. There it
 builds path_tracer_tests of the hard cases alone, for the CPU, runs all tests of the table, which must be green,
@@ -27,57 +28,57 @@ mutation = collections.namedtuple("mutation", "name file text naive test")
 
 mutations = [
     mutation("fresnel", "microfacet.hpp",
-             """  float const step = (eta - 1) * (eta + 1), cos2 = cos_i * cos_i;
-  float const bent2 = step + cos2;  // (eta cos_t)^2
+             """  real const step = (eta - 1) * (eta + 1), cos2 = cos_i * cos_i;
+  real const bent2 = step + cos2;  // (eta cos_t)^2
   cos_t = 0;
   if (!(bent2 > 0) || eta == 0) return 1;
-  float const bent = std::sqrt(bent2), both = cos_i + bent;
+  real const bent = std::sqrt(bent2), both = cos_i + bent;
   cos_t = bent / eta;
-  float const s = step / (both * both);
-  float const ratio = both / (eta * eta * cos_i + bent);
-  float const p = s * (1 - (eta * eta + 1) * cos2) * (ratio * ratio);
+  real const s = step / (both * both);
+  real const ratio = both / (eta * eta * cos_i + bent);
+  real const p = s * (1 - (eta * eta + 1) * cos2) * (ratio * ratio);
 """,
-             """  float const sin2_t = glm::max(1 - cos_i * cos_i, 0.0f) / (eta * eta);
+             """  real const sin2_t = glm::max(1 - cos_i * cos_i, real(0)) / (eta * eta);
   cos_t = 0;
   if (!(sin2_t < 1)) return 1;
   cos_t = std::sqrt(1 - sin2_t);
-  float const s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
-  float const p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
+  real const s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
+  real const p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
 """, "Fresnel's equations hold at all angles and for indices next to one"),
     mutation("sine", "microfacet.hpp", "(1 - cos_theta) * (1 + cos_theta)", "1 - cos_theta * cos_theta",
              "the sine of a direction next to the pole has all its digits"),
-    mutation("basis", "surface.hpp", "float const sign = n.z < 0 ? -1.0f : 1.0f;", "float const sign = 1.0f;",
+    mutation("basis", "surface.hpp", "real const sign = n.z < 0 ? real(-1) : real(1);", "real const sign = 1;",
              "a frame about any normal is orthonormal"),
-    mutation("gram-schmidt-once", "surface.hpp", "if (length2 < 0.25f * hint2)", "if (false)",
+    mutation("gram-schmidt-once", "surface.hpp", "if (length2 < real(0.25) * hint2)", "if (false)",
              "a frame stays orthonormal whatever tangent it is asked for"),
     mutation("moeller-trumbore", "bvh.hpp",
              """    vec2 const pa{a.x - shear_.x * a.z, a.y - shear_.y * a.z};
     vec2 const pb{b.x - shear_.x * b.z, b.y - shear_.y * b.z};
     vec2 const pc{c.x - shear_.x * c.z, c.y - shear_.y * c.z};
-    float u = pc.x * pb.y - pc.y * pb.x;
-    float v = pa.x * pc.y - pa.y * pc.x;
-    float w = pb.x * pa.y - pb.y * pa.x;
+    real u = pc.x * pb.y - pc.y * pb.x;
+    real v = pa.x * pc.y - pa.y * pc.x;
+    real w = pb.x * pa.y - pb.y * pa.x;
     if (u == 0 || v == 0 || w == 0) {  // on an edge: the sign needs the exact product
       u = edge(pc, pb);
       v = edge(pa, pc);
       w = edge(pb, pa);
     }
     if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return false;
-    float const det = u + v + w;
+    real const det = u + v + w;
     if (det == 0) return false;
-    float const t = (u * a.z + v * b.z + w * c.z) * shear_.z / det;
+    real const t = (u * a.z + v * b.z + w * c.z) * shear_.z / det;
     if (!(t > 0 && t < h.t)) return false;
     h = {t, {v / det, w / det}, triangle.primitive};
 """,
              """    vec3 const d = vec3{shear_.x, shear_.y, 1} / shear_.z, e1 = b - a, e2 = c - a;
     vec3 const p = glm::cross(d, e2);
-    float const det = glm::dot(e1, p);
+    real const det = glm::dot(e1, p);
     if (det == 0) return false;
-    float const u = -glm::dot(a, p) / det;
+    real const u = -glm::dot(a, p) / det;
     vec3 const q = glm::cross(-a, e1);
-    float const v = glm::dot(d, q) / det;
+    real const v = glm::dot(d, q) / det;
     if (u < 0 || v < 0 || u + v > 1) return false;
-    float const t = glm::dot(e2, q) / det;
+    real const t = glm::dot(e2, q) / det;
     if (!(t > 0 && t < h.t)) return false;
     h = {t, {u, v}, triangle.primitive};
 """, "no ray leaks through a closed mesh"),
@@ -89,35 +90,32 @@ mutations = [
              "return glm::dot(world, geometric) == 2 ? world : position;",
              "no secondary ray meets the triangle that it starts on"),
     mutation("constant-offset", "motion.hpp",
-             "return float_step * (2 * max_component(reach) + 16 * max_component(extent));",
-             "return max_component(reach) < 0 ? max_component(extent) : 1e-4f;",
+             "return epsilon * (2 * max_component(reach) + 16 * max_component(extent));",
+             "return max_component(reach) < 0 ? max_component(extent) : real(1e-4);",
              "a point near the origin of a huge tilted plane starts rays off it"),
-    mutation("float-sum", "stages.hpp",
-             "if (is_finite(wave.radiance[k])) sum += glm::dvec3(wave.radiance[k]);",
-             "if (is_finite(wave.radiance[k])) sum = glm::dvec3(vec3(sum) + wave.radiance[k]);",
+    mutation("float-sum", "sums.hpp", "total += glm::dvec3(v);", "total = glm::dvec3(vec3(total) + v);",
              "the mean of ten million samples is right to the last digit of a float"),
     mutation("unguarded-division", "bsdf.hpp", "  if (!(v.pdf > 0)) return {};\n", "",
              "samples of a BSDF are finite for numbers at the ends of their range"),
-    mutation("coarse-pick", "lights.hpp", "u.y + rest * 0x1p-24f >= entries", "u.y + 0 * rest >= entries",
+    mutation("coarse-pick", "lights.hpp", "u.y + rest * real(0x1p-24) >= entries", "u.y + 0 * rest >= entries",
              "a light is picked as often as its density says, were it a million times dimmer"),
-    mutation("dark-lights", "lights.cpp", "area(t) : 0;\n    if (!(w > 0)) continue;",
-             "area(t) : 0;\n    if (m.kind != shader_of<effects::emitters>) continue;",
+    mutation("dark-lights", "lights.cpp", "area(t);\n    if (!(w > 0)) continue;", "area(t);",
              "lights without area or radiance are never picked"),
     mutation("nan-passes", "environment_map.cpp",
-             "if (v >= 0 && v * intensity <= 1e30f && v <= 1e30f) continue;",
-             "if (!(v < 0 || v * intensity > 1e30f || v > 1e30f)) continue;",
+             "if (v >= 0 && v * intensity <= real(1e30) && v <= real(1e30)) continue;",
+             "if (!(v < 0 || v * intensity > real(1e30) || v > real(1e30))) continue;",
              "a sky with a texel that no light can come from is refused"),
     mutation("phase", "effects/medium.hpp", "(1 - g) * (1 - g) + 2 * g * (1 - c)", "1 + g * g - 2 * g * c",
              "the phase function is exact next to its peak"),
     mutation("sheen-to-the-horizon", "microfacet.hpp",
-             "float const o = glm::max(wo.z, 1e-4f), i = glm::max(wi.z, 1e-4f);",
-             "float const o = wo.z, i = wi.z;",
+             "real const o = glm::max(wo.z, real(1e-4)), i = glm::max(wi.z, real(1e-4));",
+             "real const o = wo.z, i = wi.z;",
              "layers over a white base give back no more than they get, and little less"),
     mutation("tangent-from-cosine", "microfacet.hpp", "(m.x * m.x + m.y * m.y) / (alpha * alpha)",
              "(1 - m.z * m.z) / (alpha * alpha)",
              "a white metal loses what single scattering loses, at any roughness and angle"),
     mutation("squared-densities", "lights.hpp",
-             "  float const ratio = b / a;\n  return 1 / (1 + ratio * ratio);",
+             "  real const ratio = b / a;\n  return 1 / (1 + ratio * ratio);",
              "  return a * a / (a * a + b * b);",
              "the power heuristic holds for densities whose squares a float does not have"),
 ]
@@ -181,6 +179,7 @@ def main():
     parser.add_argument("--folder", type=pathlib.Path, help="where to build; kept, and of use for the next run")
     parser.add_argument("--jobs", type=int, default=1, help="of the build (default: 1)")
     parser.add_argument("--list", action="store_true", help="print the table and do nothing")
+    parser.add_argument("--check", action="store_true", help="look for the texts and do nothing")
     arguments = parser.parse_args()
     chosen = mutations
     if arguments.only:
@@ -192,6 +191,9 @@ def main():
         for m in chosen:
             print(f"{m.name:24}{sources}{m.file:24}{m.test}")
         return
+    if arguments.check:
+        lost = [m.name for m in chosen if (root / sources / m.file).read_text(encoding="utf-8").count(m.text) != 1]
+        sys.exit("not found exactly once: " + ", ".join(lost) if lost else 0)
     with tempfile.TemporaryDirectory() as temporary:
         folder = (arguments.folder or pathlib.Path(temporary)).resolve()
         folder.mkdir(parents=True, exist_ok=True)

@@ -72,7 +72,7 @@ class cuda_backend {
     void stop() { stop_.record(stream_); }
     double milliseconds() const {
       check_cuda(cudaEventSynchronize(stop_.handle), "the CUDA device failed");
-      real result = 0;
+      float result = 0;
       check_cuda(cudaEventElapsedTime(&result, start_.handle, stop_.handle),
                  "cannot read a CUDA event");
       return double{result};
