@@ -102,7 +102,7 @@ class sheared_ray {
 };
 
 /// 1 / x; for 0, the infinity of its sign, which IEEE 754 has for that division.
-PT_HD inline real inverse_of(real x) { return x == 0 ? std::copysign(INFINITY, x) : 1 / x; }
+PT_HD inline real inverse_of(real x) { return x == 0 ? std::copysign(real(INFINITY), x) : 1 / x; }
 
 /// A ray in the terms of the slab test.
 class slab_ray {
