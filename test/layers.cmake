@@ -24,7 +24,7 @@ set(layers
   "grouping/[^/]*"
   "dispatch/cuda/.*"
   "dispatch/[^/]*"
-  "schedule/cuda/staged_tiles"
+  "schedule/cuda/(packed|staged)_tiles"
   "schedule/cuda/.*"
   "schedule/[^/]*"
   "shade|statistics"

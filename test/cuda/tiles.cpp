@@ -49,10 +49,23 @@ void check_records(std::integer_sequence<std::uint32_t, Ids...>) {
 
 TEST_CASE("tiles take tables of any size", "[cuda]") {
   ds::local_sort_then_dispatch<> const schedule;
+  check_table<8>(schedule);
+  check_table<9>(schedule);
   check_table<32>(schedule);
   check_table<33>(schedule);
   check_table<255>(schedule);
   check_table<256>(schedule);
+}
+
+TEST_CASE("tiles of few shaders take waves of any size", "[cuda]") {
+  // Of the size that threads have several requests each for, and larger.
+  cudaDeviceProp properties{};
+  REQUIRE(cudaGetDeviceProperties(&properties, 0) == cudaSuccess);
+  auto const threads = static_cast<std::uint32_t>(properties.multiProcessorCount *
+                                                  properties.maxThreadsPerMultiProcessor);
+  ds::workspace scratch{gpu::policy()};
+  test::check_id_type<gpu, std::uint8_t, 6>(ds::local_sort_then_dispatch<>{}, scratch,
+                                            {threads, threads + 33, 2 * threads + 1, 5 * threads});
 }
 
 TEST_CASE("windows take tables of any size", "[cuda]") {

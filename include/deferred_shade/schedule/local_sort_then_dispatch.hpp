@@ -53,7 +53,9 @@ void run_tiles(host_system, bitonic, Policy const& exec, request_index n, Ids id
 /// On CUDA, a table of record shaders with sources of one type and sinks of one type, whose
 /// requests and results are trivially copyable and small enough, passes through shared memory: the
 /// requests of a tile are loaded in the order in which they lie, shaded in the order of their
-/// shaders, and their results stored in the order in which they lie.
+/// shaders, and their results stored in the order in which they lie. A table of up to 8 index
+/// shaders is taken for one of short ones: tiles are small, and run by a switch over the sorted
+/// requests.
 template <class Sort = counting>
 struct local_sort_then_dispatch {
   template <class Policy, class Count, class Ids, class... Shaders, class Workspace>

@@ -74,6 +74,12 @@ __global__ void segments_kernel(request_index const* permutation, request_index 
 
 inline constexpr std::uint32_t switch_threads = 256;
 
+// The warps of a large block run the same shaders at about the same time, and share their
+// instructions; with few shaders, small blocks make room for the next one sooner.
+template <class... Shaders>
+inline constexpr std::uint32_t index_switch_threads = sizeof...(Shaders) <= 8 ? switch_threads / 2
+                                                                              : switch_threads;
+
 /// Whether the shaders of a table load from one place and store to one.
 template <class... Shaders>
 bool have_one_place(shader_table<Shaders...> const& shaders) {
@@ -91,13 +97,17 @@ bool have_one_place(shader_table<Shaders...> const& shaders) {
 template <class Policy, class Count, class Ids, class... Shaders>
 void run_implicit(cuda_system, Policy const& exec, Count n, Ids ids,
                   shader_table<Shaders...> const& shaders) {
-  launch_shape const shape{blocks_for(maximum_of(n), switch_threads), switch_threads};
+  std::size_t const maximum = maximum_of(n);
   if constexpr (staging<Shaders...>::possible) {
     launch<&records_kernel<Count, Ids, Shaders...>>(
-        "implicit_serialization", stream_of(exec), shape, n, ids, shaders, have_one_place(shaders));
+        "implicit_serialization", stream_of(exec),
+        {blocks_for(maximum, switch_threads), switch_threads}, n, ids, shaders,
+        have_one_place(shaders));
   } else {
-    launch<&switch_kernel<Count, Ids, Shaders...>>("implicit_serialization", stream_of(exec), shape,
-                                                   n, ids, shaders);
+    constexpr std::uint32_t threads = index_switch_threads<Shaders...>;
+    launch<&switch_kernel<Count, Ids, Shaders...>>("implicit_serialization", stream_of(exec),
+                                                   {blocks_for(maximum, threads), threads}, n, ids,
+                                                   shaders);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <deferred_shade/cuda/tile_rows.hpp>
 #include <deferred_shade/cuda/tile_sort.hpp>
 #include <deferred_shade/grouping/tile.hpp>
+#include <deferred_shade/schedule/cuda/packed_tiles.hpp>
 #include <deferred_shade/schedule/cuda/staged_tiles.hpp>
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/system.hpp>
@@ -111,6 +112,8 @@ void run_tiles(cuda_system, counting, Policy const& exec, Count n, Ids ids,
     run_tiles(cuda_system{}, bitonic{}, exec, n, ids, shaders);
   } else if constexpr (staging<Shaders...>::possible) {
     run_staged(exec, n, ids, shaders);
+  } else if constexpr (sizeof...(Shaders) <= most_packed_shaders) {
+    run_packed(exec, n, ids, shaders);
   } else {
     launch<&tile_kernel<Count, Ids, Shaders...>>(
         "local_sort_then_dispatch", stream_of(exec),
