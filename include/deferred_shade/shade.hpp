@@ -46,8 +46,8 @@ auto wave_size(System, Count n) {
 ///   stream and nothing waits for it, so that the call can be captured into a CUDA graph once
 ///   `scratch` is large enough.
 /// - `schedule`: one of this library, or any function object that is called with the arguments
-///   below, `n` as a request_index. On CUDA a device_count stays one, and a table of up to 32 places
-///   from which shader_table::only has taken some comes without gaps, with ids that fit it.
+///   below, `n` as a request_index. On CUDA a device_count stays one, and a table of up to 32
+///   places from which shader_table::only has taken some comes without gaps, with ids that fit it.
 /// - `n`: the number of requests, an integer or a device_count.
 /// - `ids`: a random-access iterator over the shader id of each request, an integer or enumeration
 ///   of 8 to 32 bits. It is read more than once. An id that the table does not have leaves its
