@@ -50,7 +50,7 @@ struct material_point {
 
   explicit material_point(path_tracer::material const& m)
       : material(m), color(m.base_color), scene{path_tracer::tables()} {}
-  path_tracer::plastic_parameters plastic_parameters(vec3 c) const {
+  PT_HD path_tracer::plastic_parameters plastic_parameters(vec3 c) const {
     return {c,
             material.metallic,
             material.roughness,
