@@ -57,6 +57,14 @@ struct plus_one {
   }
 };
 
+struct hit {
+  std::uint32_t shader;
+  float distance[2];
+};
+struct shader_of_hit {
+  DEFERRED_SHADE_HOST_DEVICE std::uint32_t operator()(hit const& h) const { return h.shader; }
+};
+
 /// Runs the kept part of a table over `ids`, of which `value_of(i)` are the values on the host.
 template <class Backend, class Ids, class Values>
 void check_part(std::uint32_t n, Ids ids, Values const& value_of) {
@@ -136,4 +144,50 @@ TEMPLATE_LIST_TEST_CASE("a part of a table takes ids from any iterator", "[gaps]
                        [&](std::uint32_t i) { return one_more(i + 3); });
   check_part<TestType>(70, thrust::counting_iterator<std::uint32_t>(0),
                        [](std::uint32_t i) { return i; });
+}
+
+TEMPLATE_LIST_TEST_CASE("ids may lie in records, for a table and for a part of it", "[gaps]",
+                        test::backends) {
+  CAPTURE(test::run_seed());
+  std::uint32_t const n = 8193;
+  std::vector<hit> host(n);
+  auto const drawn = ids_of_type<std::uint8_t>(n);
+  for (std::uint32_t i = 0; i < n; ++i) host[i] = {drawn[i], {}};
+  auto const hits = test::on<TestType>(host);
+  using iterator = thrust::transform_iterator<shader_of_hit, decltype(hits.data()), std::uint32_t,
+                                              std::uint32_t>;
+  iterator const ids(hits.data(), {});
+  check_part<TestType>(n, ids, [&](std::uint32_t i) { return host[i].shader; });
+  ds::workspace scratch{TestType::policy()};
+  auto const expected = test::traced_by_loop<shaders>(n, drawn.data(), n);
+  test::for_each_schedule([&](auto const& schedule) {
+    test::trace<TestType> actual(n);
+    auto const table = test::tracing_table<shaders>(actual.value.data(), actual.runs.data());
+    ds::shade(TestType::policy(), schedule, n, ids, table, scratch);
+    TestType::wait();
+    test::check_same(actual, expected);
+  });
+}
+
+TEMPLATE_LIST_TEST_CASE("a part of a table may be specialized further", "[gaps]", test::backends) {
+  CAPTURE(test::run_seed());
+  std::uint32_t const n = 5000;
+  auto const host = ids_of_type<std::uint8_t>(n);
+  auto const ids = test::on<TestType>(host);
+  std::vector<std::uint32_t> left(n);
+  for (std::uint32_t i = 0; i < n; ++i) left[i] = host[i] == 3 || host[i] == 17 ? host[i] : shaders;
+  auto const expected = test::traced_by_loop<shaders>(n, left.data(), n);
+  using sets = ds::variants<ds::ids<3, 17>, ds::ids<0, 3, 4, 17>>;
+  auto const occurring = std::bitset<shaders>().set(3).set(17);
+  ds::specialized const inner{ds::window_sort_then_dispatch{}, sets{}, occurring};
+  auto const check = [&](auto const& schedule) {
+    ds::workspace scratch{TestType::policy()};
+    test::trace<TestType> actual(n);
+    auto const table = test::tracing_table<shaders>(actual.value.data(), actual.runs.data());
+    ds::shade(TestType::policy(), schedule, n, ids.data(), part_of(kept{}, table), scratch);
+    TestType::wait();
+    test::check_same(actual, expected);
+  };
+  check(inner);
+  check(ds::specialized{inner, sets{}, occurring});
 }

@@ -37,6 +37,7 @@ template <std::uint32_t Present>
 struct place_among {
   template <class Id>
   DEFERRED_SHADE_HOST_DEVICE shader_id operator()(Id const& value) const {
+    static_assert(is_id<Id>, "a shader id is an integer or an enumeration of at most 32 bits");
     auto const id = static_cast<shader_id>(value);
     if (id >= 32 || (Present >> id & 1U) == 0) return 32;
     std::uint32_t const below = Present & ((std::uint32_t{1} << id) - 1);
@@ -47,6 +48,10 @@ struct place_among {
 #endif
   }
 };
+
+/// Whether a schedule takes a table with its gaps, because it goes by ids itself.
+template <class Schedule>
+inline constexpr bool takes_gaps = false;
 
 /// The shaders that a table has, in a table without gaps.
 template <class... Shaders, std::size_t... Places>
@@ -67,8 +72,9 @@ template <class System, class Schedule, class Policy, class Count, class Ids, cl
 void run_schedule(System, Schedule const& schedule, Policy const& exec, Count n, Ids ids,
                   shader_table<Shaders...> const& shaders, Workspace& scratch) {
   constexpr present_ids<Shaders...> present;
-  constexpr bool closes_gaps = std::is_same_v<System, cuda_system> && present.count > 0 &&
-                               present.count < sizeof...(Shaders) && sizeof...(Shaders) <= 32;
+  constexpr bool closes_gaps = std::is_same_v<System, cuda_system> && !takes_gaps<Schedule> &&
+                               present.count > 0 && present.count < sizeof...(Shaders) &&
+                               sizeof...(Shaders) <= 32;
   if constexpr (closes_gaps) {
     using dense_ids =
         thrust::transform_iterator<place_among<present.bits>, Ids, shader_id, shader_id>;

@@ -48,6 +48,14 @@ struct grouping {
   std::size_t maximum = max_requests;
 };
 
+namespace detail {
+
+template <class Id>
+inline constexpr bool is_id =
+    sizeof(Id) <= sizeof(shader_id) && std::disjunction_v<std::is_integral<Id>, std::is_enum<Id>>;
+
+}  // namespace detail
+
 /// The shader that `ids` names for request `i`, or `shaders` where it names none.
 ///
 /// `Ids` is a random-access iterator over an integer or an enumeration of 8 to 32 bits. A negative
@@ -57,9 +65,8 @@ DEFERRED_SHADE_HOST_DEVICE inline shader_id shader_of(Ids const& ids, request_in
                                                       shader_id shaders) {
   using traits = std::iterator_traits<Ids>;
   using value_type = typename traits::value_type;
-  static_assert(std::is_integral_v<value_type> || std::is_enum_v<value_type>,
-                "a shader id is an integer or an enumeration");
-  static_assert(sizeof(value_type) <= sizeof(shader_id), "a shader id has at most 32 bits");
+  static_assert(detail::is_id<value_type>,
+                "a shader id is an integer or an enumeration of at most 32 bits");
   value_type const value = ids[static_cast<typename traits::difference_type>(i)];
   auto const id = static_cast<shader_id>(value);
   return id < shaders ? id : shaders;

@@ -28,7 +28,7 @@ struct ids_in_memory<Id*> {
 };
 template <class Function, class Id>
 struct ids_in_memory<thrust::transform_iterator<Function, Id*, shader_id, shader_id>> {
-  static constexpr bool possible = true;
+  static constexpr bool possible = std::is_integral_v<Id> || std::is_enum_v<Id>;  // else records
   using iterator = thrust::transform_iterator<Function, Id*, shader_id, shader_id>;
   using stored = std::remove_cv_t<Id>;
   static __device__ stored const* pointer(iterator ids) { return ids.base(); }

@@ -107,4 +107,11 @@ struct specialized<Schedule, variants<Variants...>, Shaders> {
 template <class Schedule, class Variants, std::size_t Shaders>
 specialized(Schedule, Variants, std::bitset<Shaders>) -> specialized<Schedule, Variants, Shaders>;
 
+namespace detail {
+
+template <class Schedule, class Variants, std::size_t Shaders>
+inline constexpr bool takes_gaps<specialized<Schedule, Variants, Shaders>> = true;
+
+}  // namespace detail
+
 }  // namespace deferred_shade
