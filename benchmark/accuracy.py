@@ -9,7 +9,7 @@ appends one line of JSON for each setting. A setting that the file has is not me
 run goes on where it was. References and unfinished pictures lie in --cache, by names that say scene, size,
 seed, samples and precision. benchmark/accuracy_report.py makes tables and plots. Needs NumPy; FLIP is filled in
 where the package flip-evaluator is installed. The programs path_tracer_double, path_tracer_fast and
-path_tracer_compact (cmake -DPATH_TRACER_ACCURACIES=ON) lie beside PATH_TRACER; the first makes the references.
+path_tracer_compact (cmake -DDEFERRED_SHADE_BUILD_ACCURACIES=ON) lie beside PATH_TRACER; the first makes the references; none of them has the backend tbb.
 
 Errors are relative to the reference r: (x - r)^2 / (r^2 + 1e-2 m^2), where m is the mean of the reference,
 averaged over pixels and channels. Of several seeds' pictures, their variance and the square of their mean's
@@ -180,6 +180,8 @@ def main():
     arguments.cache.mkdir(parents=True, exist_ok=True)
     done = [json.loads(line) for line in arguments.output.read_text(encoding="utf-8").splitlines()] \
         if arguments.output.exists() else []
+    if any(set(d["setting"]) != set(BASE) for d in done):
+        sys.exit(f"{arguments.output} has results of other settings than this script knows: name another file")
     finished = {(d["scene"], json.dumps(d["setting"], sort_keys=True)) for d in done}
     common = {k: getattr(arguments, k) for k in ("backend", "schedule", "width", "height", "commit", "machine")}
     wanted = [(scene, s) for scene in arguments.scenes for s in settings()

@@ -18,17 +18,22 @@ namespace path_tracer {
 // them (PATH_TRACER_COMPACT, see path.hpp): they read and are assigned like a vec3.
 
 /// A unit vector in 32 bits: octahedral coordinates of 16 bits each (Cigolle et al., JCGT 2014).
-/// Off by at most 1e-4 radians.
+/// Off by at most 1e-4 radians. What has no direction comes back as NaN.
 class packed_direction {
  public:
   packed_direction() = default;
   PT_HD packed_direction(vec3 v) {
-    vec3 const a = glm::abs(v);
-    v /= a.x + a.y + a.z;
+    real const size = std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
+    if (!(size > 0 && size < INFINITY)) {
+      bits_ = none;
+      return;
+    }
+    v /= size;
     if (v.z < 0) v = folded(v);
     bits_ = coded(v.x) << 16 | coded(v.y);
   }
   PT_HD operator vec3() const {
+    if (bits_ == none) return vec3{NAN};
     vec3 v{decoded(bits_ >> 16), decoded(bits_ & 0xffffu), 0};
     v.z = 1 - std::fabs(v.x) - std::fabs(v.y);
     if (v.z < 0) {
@@ -45,6 +50,7 @@ class packed_direction {
     return {std::copysign(1 - std::fabs(v.y), v.x), std::copysign(1 - std::fabs(v.x), v.y), v.z};
   }
   static constexpr real steps = 32767;
+  static constexpr std::uint32_t none = 0xffffffffu;  // a coordinate is 65534 at most
   PT_HD static std::uint32_t coded(real x) {
     return static_cast<std::uint32_t>(std::floor((x + 1) * steps + real(0.5)));
   }
@@ -54,7 +60,8 @@ class packed_direction {
 };
 
 /// A colour in three numbers of 16 bits (binary16 of IEEE 754): eleven significant bits, nothing
-/// below 6e-8. What is finite and beyond 65504 becomes that.
+/// below 6e-8. What is finite and beyond 65504, either way, becomes that. Halfway between two, a
+/// GPU rounds to the even one, and a CPU away from 0.
 class alignas(8) packed_color {
  public:
   packed_color() = default;
@@ -69,7 +76,8 @@ class alignas(8) packed_color {
  private:
   PT_HD static std::uint16_t coded(real x) {
     constexpr real largest = 65504;
-    float const v = static_cast<float>(x > largest && x < INFINITY ? largest : x);
+    bool const is_finite = x - x == 0;
+    float const v = static_cast<float>(is_finite ? glm::clamp(x, -largest, largest) : x);
 #ifdef __CUDACC__
     return __half_as_ushort(__float2half_rn(v));
 #else

@@ -53,6 +53,12 @@ TEST_CASE("packed directions know all sides, edges and corners", "[packed]") {
     }
 }
 
+TEST_CASE("what has no direction is packed as no number", "[packed]") {
+  float const infinity = std::numeric_limits<float>::infinity(), nan = std::nanf("");
+  for (vec3 const v : {vec3{0}, vec3{nan, 0, 1}, vec3{0, 1, nan}, vec3{infinity, 0, 0}})
+    CHECK(std::isnan(vec3(packed_direction(v)).x));
+}
+
 TEST_CASE("packed colours keep eleven bits", "[packed]") {
   auto const seed = GENERATE(take(3, random(1u, 1u << 30)));
   CAPTURE(seed);
@@ -71,6 +77,7 @@ TEST_CASE("packed colours keep eleven bits", "[packed]") {
 TEST_CASE("packed colours at the ends of their range", "[packed]") {
   float const infinity = std::numeric_limits<float>::infinity();
   CHECK(vec3(packed_color(vec3{65520, 1e9f, 3e38f})) == vec3{65504});
+  CHECK(vec3(packed_color(vec3{-65520, -1e9f, -3e38f})) == vec3{-65504});
   CHECK(vec3(packed_color(vec3{1e-8f, 1e-30f, 1e-45f})) == vec3{0});
   CHECK(vec3(packed_color(vec3{infinity})) == vec3{infinity});  // so that it is counted
   CHECK(std::isnan(vec3(packed_color(vec3{std::nanf("")})).x));
