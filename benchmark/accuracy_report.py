@@ -3,11 +3,11 @@
 """Tables and plots of what benchmark/accuracy.py has measured.
 
     benchmark/accuracy_report.py table RESULT.jsonl
-    benchmark/accuracy_report.py plot PLOT.svg RESULT.jsonl
+    benchmark/accuracy_report.py plot PLOT.svg RESULT.jsonl...
     benchmark/accuracy_report.py schedules RESULT.jsonl REPORT.json...
 
 `table` prints Markdown: for every scene what each setting takes and gives, the slope of the convergence, and what
-a digit costs. `plot` draws error against time, a panel for each scene, with the settings that no other beats in
+a digit costs. `plot` draws error against time, a panel for each scene and file, with the settings that no other beats in
 both joined by a line. `schedules` takes reports of `path_tracer --schedule all` over the same scenes and prints
 the seconds in which each schedule reaches a relative error of 1 %: as schedules change no bit, that is its time per
 sample times the samples which that takes.
@@ -24,6 +24,10 @@ def read(path):
     for result in map(json.loads, lines):
         scenes.setdefault(result["scene"], []).append(result)
     return scenes
+
+
+def percent(share):
+    return f"{100 * share:.0f} %" if share >= 0.1 else f"{100 * share:.2g} %"
 
 
 def name(result):
@@ -60,14 +64,14 @@ def table(path):
         base = next((r for r in results if not r["changes"]), first)
         print(f"### {scene}\n\n{first['machine']}, commit {first['commit']}, backend {first['backend']}, "
               f"{first['width']} x {first['height']}, {first['seeds']} seeds. Reference: {first['reference_spp']} samples, "
-              f"its own relative error {100 * math.sqrt(first['reference_mse']):.2g} %.\n")
+              f"its own relative error {percent(math.sqrt(first['reference_mse']))}.\n")
         print("| setting | seconds | spread | error | variance | bias² | 99.9 % below | FLIP | rounding | efficiency |")
         print("|---" * 10 + "|")
         for r in sorted(results, key=lambda r: (len(r["changes"]), name(r).split()[0], r["seconds"])):
             shown = "" if r["flip"] is None else f"{r['flip']:.3f}"
             rounding = f"{r['rounding']['rms']:.1g} ({r['rounding']['median']:.0e})" if r.get("rounding") else ""
             print(f"| {name(r)} | {r['seconds']:.3f} | {100 * r['seconds_spread'] / r['seconds']:.0f} % "
-                  f"| {100 * math.sqrt(r['relative_mse']):.2g} % | {r['relative_variance']:.2g} "
+                  f"| {percent(math.sqrt(r['relative_mse']))} | {r['relative_variance']:.2g} "
                   f"| {r['relative_bias2']:.1g} | {r['p999']:.2g} | {shown} | {rounding} "
                   f"| {r['efficiency'] / base['efficiency']:.2f} |")
         slope, _ = line_through([(math.log(spp), math.log(r["relative_variance"]))
@@ -97,7 +101,7 @@ stroke-width:1.5} .on{fill:#0072b2} .off{fill:none;stroke:#e69f00;stroke-width:1
 </style>"""
 
 
-def panel(scene, results, x0, y0, width, height):
+def panel(title, results, x0, y0, width, height):
     times = [math.log10(r["seconds"]) for r in results]
     errors = [math.log10(r["relative_mse"]) / 2 for r in results]
     low_x, high_x, low_y, high_y = min(times), max(times), min(errors), max(errors)
@@ -108,27 +112,28 @@ def panel(scene, results, x0, y0, width, height):
         return x0 + 8 + x * (width - 16), y0 + height - 8 - y * (height - 16)
 
     best = front(results)
-    out = [f'<text x="{x0}" y="{y0 - 6}">{scene}</text>',
+    out = [f'<text x="{x0}" y="{y0 - 6}">{title}</text>',
            f'<rect class="axis" x="{x0}" y="{y0}" width="{width}" height="{height}"/>',
            f'<text class="light" x="{x0}" y="{y0 + height + 14}">{10 ** low_x:.2g} s</text>',
            f'<text class="light" x="{x0 + width}" y="{y0 + height + 14}" text-anchor="end">{10 ** high_x:.2g} s</text>',
-           f'<text class="light" x="{x0 - 4}" y="{y0 + 10}" text-anchor="end">{100 * 10 ** high_y:.2g} %</text>',
-           f'<text class="light" x="{x0 - 4}" y="{y0 + height}" text-anchor="end">{100 * 10 ** low_y:.2g} %</text>',
+           f'<text class="light" x="{x0 - 4}" y="{y0 + 10}" text-anchor="end">{percent(10 ** high_y)}</text>',
+           f'<text class="light" x="{x0 - 4}" y="{y0 + height}" text-anchor="end">{percent(10 ** low_y)}</text>',
            '<polyline class="front" points="' + " ".join("{:.1f},{:.1f}".format(*at(r)) for r in best) + '"/>']
     for r in results:
         x, y = at(r)
         out.append(f'<circle class="{"on" if r in best else "off"}" cx="{x:.1f}" cy="{y:.1f}" r="3">'
-                   f"<title>{name(r)}: {100 * math.sqrt(r['relative_mse']):.2g} % in {r['seconds']:.3g} s</title></circle>")
+                   f"<title>{name(r)}: {percent(math.sqrt(r['relative_mse']))} in {r['seconds']:.3g} s</title></circle>")
     return out
 
 
-def plot(path, result):
-    scenes = read(result)
+def plot(path, files):
+    panels = [(f"{scene}, {results[0]['backend']}", results)
+              for file in files for scene, results in read(file).items()]
     width, height = 280, 200
     out = []
-    for k, (scene, results) in enumerate(scenes.items()):
-        out += panel(scene, results, 60 + k % 2 * (width + 80), 30 + k // 2 * (height + 60), width, height)
-    rows = (len(scenes) + 1) // 2
+    for k, (title, results) in enumerate(panels):
+        out += panel(title, results, 60 + k % 2 * (width + 80), 30 + k // 2 * (height + 60), width, height)
+    rows = (len(panels) + 1) // 2
     head = f'<svg xmlns="http://www.w3.org/2000/svg" width="{2 * width + 160}" height="{rows * (height + 60) + 10}" role="img">'
     pathlib.Path(path).write_text("\n".join([head, STYLE, *out]) + "\n</svg>\n", encoding="utf-8")
 
@@ -150,8 +155,8 @@ def schedules(path, reports):
 def main(arguments):
     if arguments[:1] == ["table"] and len(arguments) == 2:
         table(arguments[1])
-    elif arguments[:1] == ["plot"] and len(arguments) == 3:
-        plot(*arguments[1:])
+    elif arguments[:1] == ["plot"] and len(arguments) > 2:
+        plot(arguments[1], arguments[2:])
     elif arguments[:1] == ["schedules"] and len(arguments) > 2:
         schedules(arguments[1], arguments[2:])
     else:
