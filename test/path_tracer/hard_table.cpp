@@ -104,7 +104,7 @@ void frame_rows(fine_numbers& n) {
   for (int i = 0; i < 300000; ++i) {
     double const sine = n.over_decades(1e-6, 1), phi = 6.3 * n.uniform();
     vec3 const m(sine * std::cos(phi), sine * std::sin(phi), -std::sqrt((1 - sine) * (1 + sine)));
-    float const a = -1 / (1 + m.z);
+    float const a = m.z > -1 ? -1 / (1 + m.z) : -INFINITY;
     surface s;
     set_frame(s, m, vec3{0});
     keep_worst(naive, skew(m, {1 + m.x * m.x * a, m.x * m.y * a, -m.x}));
@@ -127,9 +127,9 @@ void frame_rows(fine_numbers& n) {
 bool moeller_trumbore(triangle const& t, ray const& r) {
   vec3 const e1 = t.position[1] - t.position[0], e2 = t.position[2] - t.position[0];
   vec3 const p = glm::cross(r.direction, e2), s = r.origin - t.position[0];
-  float const det = glm::dot(e1, p), u = glm::dot(s, p) / det;
+  float const det = glm::dot(e1, p), u = det != 0 ? glm::dot(s, p) / det : -1.0f;
   vec3 const q = glm::cross(s, e1);
-  float const v = glm::dot(r.direction, q) / det;
+  float const v = det != 0 ? glm::dot(r.direction, q) / det : -1.0f;
   return u >= 0 && v >= 0 && u + v <= 1 && glm::dot(e2, q) / det > 0;
 }
 
