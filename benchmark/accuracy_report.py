@@ -17,6 +17,8 @@ import math
 import pathlib
 import sys
 
+from reporting import markdown
+
 
 def read(path):
     lines = pathlib.Path(path).read_text(encoding="utf-8").splitlines()
@@ -58,30 +60,37 @@ def seconds_for(results, spp):
     return max(fixed, 0) + slope * spp
 
 
-def table(path):
-    for scene, results in read(path).items():
-        first = results[0]
-        base = next((r for r in results if not r["changes"]), first)
-        print(f"### {scene}\n\n{first['machine']}, commit {first['commit']}, backend {first['backend']}, "
-              f"{first['width']} x {first['height']}, {first['seeds']} seeds. Reference: {first['reference_spp']} samples, "
-              f"its own relative error {percent(math.sqrt(first['reference_mse']))}.\n")
-        print("| setting | seconds | spread | error | variance | bias² | 99.9 % below | FLIP | rounding | efficiency |")
-        print("|---" * 10 + "|")
-        for r in sorted(results, key=lambda r: (len(r["changes"]), name(r).split()[0], r["seconds"])):
-            shown = "" if r["flip"] is None else f"{r['flip']:.3f}"
-            rounding = f"{r['rounding']['rms']:.1g} ({r['rounding']['median']:.0e})" if r.get("rounding") else ""
-            print(f"| {name(r)} | {r['seconds']:.3f} | {100 * r['seconds_spread'] / r['seconds']:.0f} % "
-                  f"| {percent(math.sqrt(r['relative_mse']))} | {r['relative_variance']:.2g} "
-                  f"| {r['relative_bias2']:.1g} | {r['p999']:.2g} | {shown} | {rounding} "
-                  f"| {r['efficiency'] / base['efficiency']:.2f} |")
-        slope, _ = line_through([(math.log(spp), math.log(r["relative_variance"]))
-                                 for spp, r in only_samples_differ(results)])
-        print(f"\nThe variance falls with the samples to the power of {slope:.2f}.\n")
-        print("| relative error | samples per pixel | seconds |\n|---|---|---|")
-        for error in (0.1, 0.01, 0.001):
-            spp = samples_for(results, error)
-            print(f"| {100 * error:g} % | {spp:.3g} | {seconds_for(results, spp):.3g} |")
-        print()
+def table(results):
+    """What was measured, what each setting of one scene takes and gives, and what an error costs."""
+    first = results[0]
+    base = next((r for r in results if not r["changes"]), first)
+    rows = []
+    for r in sorted(results, key=lambda r: (len(r["changes"]), name(r).split()[0], r["seconds"])):
+        rounding = f"{r['rounding']['rms']:.1g} ({r['rounding']['median']:.0e})" if r.get("rounding") else ""
+        rows.append([name(r), f"{r['seconds']:.3f}", f"{100 * r['seconds_spread'] / r['seconds']:.0f} %",
+                     percent(math.sqrt(r["relative_mse"])), f"{r['relative_variance']:.2g}",
+                     f"{r['relative_bias2']:.1g}", f"{r['p999']:.2g}", "" if r["flip"] is None else f"{r['flip']:.3f}",
+                     rounding, f"{r['efficiency'] / base['efficiency']:.2f}"])
+    slope, _ = line_through([(math.log(spp), math.log(r["relative_variance"]))
+                             for spp, r in only_samples_differ(results)])
+    costs = [[f"{100 * error:g} %", f"{samples_for(results, error):.3g}",
+              f"{seconds_for(results, samples_for(results, error)):.3g}"] for error in (0.1, 0.01, 0.001)]
+    return "\n\n".join([
+        f"{first['machine']}, commit {first['commit']}, backend {first['backend']}, {first['width']} x {first['height']}, "
+        f"{first['seeds']} seeds. Reference: {first['reference_spp']} samples, its own relative error "
+        f"{percent(math.sqrt(first['reference_mse']))}.",
+        markdown.table(["setting", "seconds", "spread", "error", "variance", "bias²", "99.9 % below", "FLIP", "rounding",
+                        "efficiency"], rows),
+        f"The variance falls with the samples to the power of {slope:.2f}.",
+        markdown.table(["relative error", "samples per pixel", "seconds"], costs)])
+
+
+def text(path):
+    """The tables of all scenes; a heading for each where there are several."""
+    scenes = read(path)
+    if len(scenes) == 1:
+        return "\n\n".join(f"`{scene}`, {table(results)}" for scene, results in scenes.items())
+    return "\n\n".join(f"### {scene}\n\n{table(results)}" for scene, results in scenes.items())
 
 
 def front(results):
@@ -126,7 +135,7 @@ def panel(title, results, x0, y0, width, height):
     return out
 
 
-def plot(path, files):
+def plot(files):
     panels = [(f"{scene}, {results[0]['backend']}", results)
               for file in files for scene, results in read(file).items()]
     width, height = 280, 200
@@ -135,7 +144,7 @@ def plot(path, files):
         out += panel(title, results, 60 + k % 2 * (width + 80), 30 + k // 2 * (height + 60), width, height)
     rows = (len(panels) + 1) // 2
     head = f'<svg xmlns="http://www.w3.org/2000/svg" width="{2 * width + 160}" height="{rows * (height + 60) + 10}" role="img">'
-    pathlib.Path(path).write_text("\n".join([head, STYLE, *out]) + "\n</svg>\n", encoding="utf-8")
+    return "\n".join([head, STYLE, *out]) + "\n</svg>\n"
 
 
 def schedules(path, reports):
@@ -146,19 +155,18 @@ def schedules(path, reports):
         scene = pathlib.Path(run["scene"]).stem
         spp = samples_for(scenes[scene], 0.01)
         names = [s["schedule"] for s in run["schedules"]]
-        seconds = [s["seconds"] / run["settings"]["spp"] * spp for s in run["schedules"]]
-        rows.append(f"| {scene} | {spp:.3g} | " + " | ".join(f"{s:.3g}" for s in seconds) + " |")
-    print("| scene | samples | " + " | ".join(f"`{n}`" for n in names) + " |\n" + "|---" * (len(names) + 2) + "|")
-    print("\n".join(rows))
+        rows.append([scene, f"{spp:.3g}"] +
+                    [f"{s['seconds'] / run['settings']['spp'] * spp:.3g}" for s in run["schedules"]])
+    return markdown.table(["scene", "samples"] + [f"`{n}`" for n in names], rows)
 
 
 def main(arguments):
     if arguments[:1] == ["table"] and len(arguments) == 2:
-        table(arguments[1])
+        print(text(arguments[1]))
     elif arguments[:1] == ["plot"] and len(arguments) > 2:
-        plot(arguments[1], arguments[2:])
+        pathlib.Path(arguments[1]).write_text(plot(arguments[2:]), encoding="utf-8")
     elif arguments[:1] == ["schedules"] and len(arguments) > 2:
-        schedules(arguments[1], arguments[2:])
+        print(schedules(arguments[1], arguments[2:]))
     else:
         sys.exit(__doc__)
 

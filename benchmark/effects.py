@@ -20,6 +20,7 @@ import subprocess
 import sys
 import tempfile
 
+from reporting import markdown
 
 
 def render(arguments, program, scene, effects):
@@ -59,38 +60,54 @@ def write(path, result):
     temporary.replace(path)
 
 
-def table(path):
+# What a table compares, and what stands above it.
+PAIRS = {("all", "auto"): "", ("auto", "only"): "By its effects, over a program of those alone:"}
+
+
+def read(path):
     with open(path, encoding="utf-8") as file:
-        result = json.load(file)
+        return json.load(file)
+
+
+def measured(result):
+    settings = result["settings"]
+    return ", ".join([result["machine"], f"commit {result['commit']}", f"{settings['width']} x {settings['height']}"] +
+                     [f"{k} {settings[k]}" for k in ("backend", "spp", "max_depth", "repetitions")])
+
+
+def table(result, pair):
+    """The ratios of a pair of programs, and the spread of their times; empty where one of them did not run."""
+    if not all(any(run["effects"] == e for run in result["runs"]) for e in pair):
+        return ""
     numbers, spreads = {}, []
     for run in result["runs"]:
         for what in ("seconds", "shade_ms"):
-            key = (run["scene"], run["schedule"], run["effects"], what)
-            numbers.setdefault(key, []).append(run[what])
+            numbers.setdefault((run["scene"], run["schedule"], run["effects"], what), []).append(run[what])
     code = {run["scene"]: run["code_for"] for run in result["runs"] if run["effects"] == "auto"}
     schedules = list(dict.fromkeys(run["schedule"] for run in result["runs"]))
 
-    def ratio(scene, schedule, pair, what):
+    def ratio(scene, schedule, what):
         above, below = (numbers[scene, schedule, e, what] for e in pair)
         if what == "seconds":
             spreads.extend((max(v) - min(v)) / statistics.median(v) for v in (above, below))
         return statistics.median(above) / statistics.median(below)
 
-    settings = result["settings"]
-    print(", ".join([result["machine"], f"commit {result['commit']}", f"{settings['width']} x {settings['height']}"] +
-                    [f"{k} {settings[k]}" for k in ("backend", "spp", "max_depth", "repetitions")]))
-    for pair, title in ((("all", "auto"), ""), (("auto", "only"), "By its effects, over a program of those alone:\n\n")):
-        if not all(any(run["effects"] == e for run in result["runs"]) for e in pair):
-            continue
-        spreads.clear()
-        print(f"\n{title}| scene | effects in its code | " + " | ".join(f"`{s}`" for s in schedules) + " |")
-        print("|---" * (len(schedules) + 2) + "|")
-        for scene, names in code.items():
-            cells = [f"{ratio(scene, s, pair, 'seconds'):.2f} ({ratio(scene, s, pair, 'shade_ms'):.2f})"
-                     for s in schedules]
-            print(f"| {scene} | {len(names.split(', '))} | " + " | ".join(cells) + " |")
-        print(f"\nSpread of a picture's seconds, (most - least) / median: half of them at most "
-              f"{100 * statistics.median(spreads):.0f} %, the largest {100 * max(spreads):.0f} %.")
+    rows = [[scene, len(names.split(", "))] +
+            [f"{ratio(scene, s, 'seconds'):.2f} ({ratio(scene, s, 'shade_ms'):.2f})" for s in schedules]
+            for scene, names in code.items()]
+    return (markdown.table(["scene", "effects in its code"] + [f"`{s}`" for s in schedules], rows) +
+            "\n\nSpread of a picture's seconds, (most - least) / median: half of them at most "
+            f"{100 * statistics.median(spreads):.0f} %, the largest {100 * max(spreads):.0f} %.")
+
+
+def text(path, pairs=tuple(PAIRS)):
+    result = read(path)
+    parts = [measured(result)]
+    for pair in pairs:
+        found = table(result, pair)
+        if found:
+            parts += [PAIRS[pair]] * bool(PAIRS[pair] and len(pairs) > 1) + [found]
+    return "\n\n".join(parts)
 
 
 PLOTTED = ("implicit", "explicit", "bucket+explicit", "local", "window")
@@ -100,12 +117,11 @@ text{font:13px sans-serif;fill:#222} .light{fill:#666} line{stroke:#888} .a{fill
 </style>"""
 
 
-def plot(path, results):
+def plot(results):
     """Bars of shading, all over auto, for each scene and some schedules; a colour for each of two results."""
     runs = []
     for name in results:
-        with open(name, encoding="utf-8") as file:
-            runs.append(json.load(file))
+        runs.append(read(name))
     times = [{} for _ in runs]
     for into, result in zip(times, runs):
         for run in result["runs"]:
@@ -129,7 +145,7 @@ def plot(path, results):
     for x in (1, 2, 3):
         out.append(f'<line x1="{left + unit * x}" x2="{left + unit * x}" y1="30" y2="{height}"/>'
                    f'<text class="light" x="{left + unit * x}" y="{height + 14}" text-anchor="middle">{x}</text>')
-    pathlib.Path(path).write_text("\n".join(out) + "\n</svg>\n", encoding="utf-8")
+    return "\n".join(out) + "\n</svg>\n"
 
 
 def main():
@@ -154,9 +170,9 @@ def main():
     if arguments.command == "measure":
         measure(arguments)
     elif arguments.command == "plot":
-        plot(arguments.output, arguments.results)
+        pathlib.Path(arguments.output).write_text(plot(arguments.results), encoding="utf-8")
     else:
-        table(arguments.result)
+        print(text(arguments.result))
 
 
 if __name__ == "__main__":
