@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a marker may name: the tables and the plots."""
+import json
+
+import accuracy_report
+import bounces
+import effects
+import ratios
+import registers
+
+from . import several
+from .google_benchmark import Report
+
+
+def ratios_of(path, headings="0"):
+    return ratios.text(Report(path), int(headings))
+
+
+def effects_of(path, over="all/auto"):
+    """Of one pair of programs."""
+    return effects.text(path, [tuple(over.split("/"))])
+
+
+VIEWS = {
+    "ratios": ratios_of,
+    "threads": several.threads,
+    "peers": lambda path: several.peers(json.loads(path.read_text(encoding="utf-8"))),
+    "bounces": lambda *paths: bounces.table(paths),
+    "effects": effects_of,
+    "registers": registers.table,
+    "compiled-sets": several.compiled_sets,
+    "accuracy": accuracy_report.text,
+    "accuracy-schedules": lambda path, *reports: accuracy_report.schedules(path, reports),
+}
+PLOTS = {
+    "effects": lambda *paths: effects.plot(paths),
+    "accuracy": lambda *paths: accuracy_report.plot(paths),
+}
