@@ -8,11 +8,12 @@ import effects
 import ratios
 import registers
 
-from . import several
+from . import claims, roofline, scaling, several, speedups, summary
 from .google_benchmark import Report
 
 
 def ratios_of(path, headings="0"):
+    """All that benchmark/ratios.py says of a report; `headings` is their level, 0 leaves them out."""
     return ratios.text(Report(path), int(headings))
 
 
@@ -31,8 +32,21 @@ VIEWS = {
     "compiled-sets": several.compiled_sets,
     "accuracy": accuracy_report.text,
     "accuracy-schedules": lambda path, *reports: accuracy_report.schedules(path, reports),
+    "summary": summary.summary,
+    "speedup": summary.speedup,
+    "scenes": claims.scenes,
+    "coherence": claims.coherence,
+    "efficiency": claims.efficiency,
+    "dispatches": claims.dispatches,
+    "unordered": claims.unordered,
+    "local": claims.local,
+    "scaling": claims.scaling,
+    "roofs": roofline.counters,
 }
 PLOTS = {
     "effects": lambda *paths: effects.plot(paths),
     "accuracy": lambda *paths: accuracy_report.plot(paths),
+    "speedups": speedups.plot,
+    "scaling": scaling.plot,
+    "roofline": roofline.plot,
 }
