@@ -5,7 +5,8 @@
     benchmark/report.py              puts them into the pages
     benchmark/report.py --check      fails where a page has something else than the raw data gives
     benchmark/report.py --unused     raw data that no page names
-    benchmark/report.py --run BUILD  runs the benchmarks of a build, and makes tables and plots of them
+    benchmark/report.py --run BUILD  runs the benchmarks of a build, for a GPU or for CPUs, into out/benchmark:
+                                     raw data, and a page of tables and plots of it, report.md
 
 A page says between which markers what of which file stands; reporting/pages.py says how. To measure again: put
 the new file where the old one was, or name it in the marker, and run this. It needs Python 3.11 and nothing else.
@@ -14,6 +15,7 @@ import argparse
 import pathlib
 import sys
 
+from reporting import running
 from reporting.pages import Pages, Stale, first_difference
 from reporting.views import PLOTS, VIEWS
 
@@ -25,8 +27,14 @@ def main():
     what = parser.add_mutually_exclusive_group()
     what.add_argument("--check", action="store_true")
     what.add_argument("--unused", action="store_true")
+    what.add_argument("--run", metavar="BUILD", type=pathlib.Path)
+    parser.add_argument("--quick", action="store_true", help="with --run: a few sizes alone")
+    parser.add_argument("--filter", help="with --run: a regular expression that names of cells match")
+    parser.add_argument("--repetitions", type=int, default=3, help="with --run; their spread is reported")
     arguments = parser.parse_args()
 
+    if arguments.run:
+        return sys.exit(running.run(arguments.run, ROOT / "out/benchmark", ROOT, arguments))
     pages = Pages([ROOT / "README.md", *sorted(ROOT.glob("docs/**/*.md"))], ROOT / "docs/results", VIEWS, PLOTS)
     if arguments.unused:
         return print("\n".join(pages.unused()))
