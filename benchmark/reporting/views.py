@@ -8,7 +8,7 @@ import effects
 import ratios
 import registers
 
-from . import claims, roofline, scaling, several, speedups, summary
+from . import claims, compiling, roofline, scaling, several, speedups, summary
 from .google_benchmark import Report
 
 
@@ -32,6 +32,7 @@ VIEWS = {
     "compiled-sets": several.compiled_sets,
     "accuracy": accuracy_report.text,
     "accuracy-schedules": lambda path, *reports: accuracy_report.schedules(path, reports),
+    "compile-time": compiling.compile_time,
     "summary": summary.summary,
     "speedup": summary.speedup,
     "scenes": claims.scenes,
