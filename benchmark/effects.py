@@ -21,6 +21,7 @@ import sys
 import tempfile
 
 from reporting import markdown
+from reporting.svg import Drawing, LogScale, plain
 
 
 def render(arguments, program, scene, effects):
@@ -111,41 +112,42 @@ def text(path, pairs=tuple(PAIRS)):
 
 
 PLOTTED = ("implicit", "explicit", "bucket+explicit", "local", "window")
-STYLE = """<style>
-text{font:13px sans-serif;fill:#222} .light{fill:#666} line{stroke:#888} .a{fill:#0072b2} .b{fill:#e69f00}
-@media (prefers-color-scheme:dark){text{fill:#eee} .light{fill:#aaa}}
-</style>"""
 
 
-def plot(results):
-    """Bars of shading, all over auto, for each scene and some schedules; a colour for each of two results."""
-    runs = []
-    for name in results:
-        runs.append(read(name))
-    times = [{} for _ in runs]
-    for into, result in zip(times, runs):
+def plot(paths):
+    """Shading, all over auto, for each scene and some schedules: a disc for the first result, a diamond for the next."""
+    results, times = [read(path) for path in paths], []
+    for result in results:
+        times.append({})
         for run in result["runs"]:
-            into.setdefault((run["scene"], run["schedule"], run["effects"]), []).append(run["shade_ms"])
-    pairs = [p for p in dict.fromkeys((r["scene"], r["schedule"]) for r in runs[0]["runs"])
-             if p[1] in PLOTTED and all((*p, "all") in into for into in times)]
-    row, left, unit = 9 * len(runs) + 6, 190, 150
-    height = 40 + row * len(pairs)
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="720" height="{height + 20}" role="img">', STYLE]
-    for k, result in enumerate(runs):
-        out.append(f'<rect class="{"ab"[k]}" x="{left + 250 * k}" y="8" width="12" height="12"/>'
-                   f'<text x="{left + 18 + 250 * k}" y="19">{result["machine"].split(",")[0]}</text>')
-    for i, (scene, schedule) in enumerate(pairs):
-        y = 36 + row * i
-        out.append(f'<text x="{left - 8}" y="{y + row / 2 + 2}" text-anchor="end">{scene} {schedule}</text>')
-        for k, into in enumerate(times):
-            ratio = (statistics.median(into[scene, schedule, "all"]) /
-                     statistics.median(into[scene, schedule, "auto"]))
-            out.append(f'<rect class="{"ab"[k]}" x="{left}" y="{y + 9 * k}" width="{unit * ratio:.1f}" height="8">'
-                       f"<title>{ratio:.2f}</title></rect>")
-    for x in (1, 2, 3):
-        out.append(f'<line x1="{left + unit * x}" x2="{left + unit * x}" y1="30" y2="{height}"/>'
-                   f'<text class="light" x="{left + unit * x}" y="{height + 14}" text-anchor="middle">{x}</text>')
-    return "\n".join(out) + "\n</svg>\n"
+            times[-1].setdefault((run["scene"], run["schedule"], run["effects"]), []).append(run["shade_ms"])
+    scenes = [s for s in dict.fromkeys(run["scene"] for run in results[0]["runs"])
+              if all((s, name, "all") in found for found in times for name in PLOTTED)]
+
+    def ratio(found, scene, name):
+        return statistics.median(found[scene, name, "all"]) / statistics.median(found[scene, name, "auto"])
+    top, row, block, left, right = 48, 14, 21 + 14 * len(PLOTTED) + 9, 128, 426
+    bottom = top + block * len(scenes)
+    x = LogScale(0.75, 4, left, right)
+    d = Drawing(440, bottom + 58, "Shading by code for all effects, over shading by code for those of the scene")
+    looks = list(zip(("disc", "diamond"), ("s0", "s1"), results))
+    for k, (shape, look, result) in enumerate(looks):
+        d.mark(shape, 16, 16 + 20 * k, look)
+        d.text(26, 20 + 20 * k, result["machine"])
+    for value in (0.75, 1, 1.5, 2, 3, 4):
+        d.line([(x(value), top), (x(value), bottom)], "axis" if value == 1 else "grid")
+        d.text(x(value), bottom + 15, plain(value), "small soft", "middle")
+    d.text((left + right) / 2, bottom + 34, "shading takes so many times as long", "", "middle")
+    d.text((left + right) / 2, bottom + 50, "by code for all effects", "", "middle")
+    for k, scene in enumerate(scenes):
+        d.text(8, top + block * k + 14, scene, "strong")
+        for i, name in enumerate(PLOTTED):
+            y = top + block * k + 21 + row * i + row / 2
+            d.text(left - 8, y + 4, name, "small", "end")
+            for (shape, look, _), found in zip(looks, times):
+                value = ratio(found, scene, name)
+                d.mark(shape, x(value), y, look, f"{scene}, {name}: {value:.2f}")
+    return d.render()
 
 
 def main():
