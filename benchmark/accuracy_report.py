@@ -131,7 +131,7 @@ def plot(files):
     panels = [(f"{scene}, {results[0]['machine']}, {results[0]['backend']}", results)
               for file in files for scene, results in read(file).items()]
     height = 300
-    d = Drawing(440, height * len(panels) + 36, "Relative error over seconds of the path tracer's settings")
+    d = Drawing(440, height * len(panels) + 44, "Relative error over seconds of the path tracer's settings")
     d.mark("disc", 16, 16, "s0")
     d.text(26, 20, "no other beats it in both")
     d.mark("diamond", 221, 16, "s4")

@@ -128,13 +128,16 @@ def plot(paths):
         return statistics.median(found[scene, name, "all"]) / statistics.median(found[scene, name, "auto"])
     top, row, block, left, right = 48, 14, 21 + 14 * len(PLOTTED) + 9, 128, 426
     bottom = top + block * len(scenes)
-    x = LogScale(0.75, 4, left, right)
+    every = [ratio(found, scene, name) for found in times for scene in scenes for name in PLOTTED]
+    x = LogScale(min(0.75, min(every) / 1.1), max(4, max(every) * 1.1), left, right)
     d = Drawing(440, bottom + 58, "Shading by code for all effects, over shading by code for those of the scene")
     looks = list(zip(("disc", "diamond"), ("s0", "s1"), results))
     for k, (shape, look, result) in enumerate(looks):
         d.mark(shape, 16, 16 + 20 * k, look)
         d.text(26, 20 + 20 * k, result["machine"])
-    for value in (0.75, 1, 1.5, 2, 3, 4):
+    for value in (0.5, 0.75, 1, 1.5, 2, 3, 4, 8):
+        if not x.low <= value <= x.high:
+            continue
         d.line([(x(value), top), (x(value), bottom)], "axis" if value == 1 else "grid")
         d.text(x(value), bottom + 15, plain(value), "small soft", "middle")
     d.text((left + right) / 2, bottom + 34, "shading takes so many times as long", "", "middle")
