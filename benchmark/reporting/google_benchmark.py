@@ -2,11 +2,12 @@
 """Reads the reports that the C++ benchmarks write."""
 import json
 import math
+import re
 import statistics
 from collections import defaultdict
 
 MICROSECONDS = {"ns": 1e-3, "us": 1.0, "ms": 1e3, "s": 1e6}
-CONTEXT = ("date", "machine", "cuda_driver", "cuda_runtime", "nvcc", "compiler", "vectors", "threads", "thrust",
+CONTEXT = ("date", "machine", "driver", "cuda_driver", "cuda_runtime", "nvcc", "compiler", "vectors", "threads", "thrust",
            "deferred_shade", "commit")
 
 
@@ -50,3 +51,9 @@ class Report:
 
 def geometric_mean(values):
     return math.exp(sum(map(math.log, values)) / len(values))
+
+
+def machine_of(context):
+    """The machine's name, short enough for a title."""
+    name = re.sub(r"\((R|TM|C)\)| (CPU|Processor)\b|@.*", "", context["machine"]).strip()
+    return name if len(name) <= 24 else name[:23] + "…"

@@ -81,7 +81,8 @@ class Pages:
             text = page.read_text(encoding="utf-8")
             for words in [m[1] for m in REPORT.findall(text)] + [m[0] for m in PLOT.findall(text)]:
                 named.update(parse(words, self.raw)[1])
-        return sorted(file.name for file in self.raw.iterdir() if file.suffix in (".json", ".jsonl") and file not in named)
+        return sorted(file.name for file in self.raw.iterdir()
+                      if file.suffix in (".json", ".jsonl") and file not in named)
 
 
 def first_difference(path, wanted):

@@ -73,11 +73,12 @@ def counters(path, grouping):
     memory, copy, issue = roofs(path, grouping)
     rows = [[words, f"{k.intensity():.3f}", f"{100 * k.bytes / k.time / memory:.0f} %", f"{100 * k.issue:.0f} %",
              "memory" if k.bytes / k.time / memory > k.issue else "instructions"] for words, k in chosen(path)]
-    return table(["kernel, shaders", "warp instructions per byte", "of the bytes per second", "of the slots for instructions",
-                  "nearer to its roof"], rows) + \
-        (f"\n\nRoofs: {memory / 1e12:.2f} TB/s, the most that was measured (the benchmark's copy: {copy / 1e12:.2f}), and "
-         f"{issue / 1e9:.0f} thousand million instructions of warps per second; they meet at "
-         f"{issue / memory:.2f} instructions per byte.")
+    head = ["kernel, shaders", "warp instructions per byte", "of the bytes per second", "of the slots for instructions",
+            "nearer to its roof"]
+    return table(head, rows) + (
+        f"\n\nRoofs: {memory / 1e12:.2f} TB/s, the most that was measured (the benchmark's copy: {copy / 1e12:.2f}), "
+        f"and {issue / 1e9:.0f} thousand million instructions of warps per second; they meet at {issue / memory:.2f} "
+        "instructions per byte.")
 
 
 def plot(path, grouping):

@@ -37,11 +37,12 @@ def measure(program, out, root, arguments):
     if driver != "unknown":
         context["driver"] = driver.splitlines()[0]
     command = [str(program), f"--benchmark_out={out}", "--benchmark_out_format=json",
-               f"--benchmark_repetitions={arguments.repetitions}", "--benchmark_display_aggregates_only=true",
+               f"--benchmark_repetitions={arguments.repetitions}",
                "--benchmark_context=" + ",".join(f"{k}={v}" for k, v in context.items())]
     command += [f"--benchmark_filter={arguments.filter}"] * bool(arguments.filter) + ["--quick"] * arguments.quick
     threads = {"OMP_NUM_THREADS": str(os.cpu_count()), "OMP_PROC_BIND": "spread", "OMP_WAIT_POLICY": "active"}
-    return subprocess.run(command, env={**threads, **os.environ}, check=False).returncode
+    print(f"{program.name} runs", flush=True)
+    return subprocess.run(command, env={**threads, **os.environ}, check=False, stdout=subprocess.DEVNULL).returncode
 
 
 def plots_of(name, report):

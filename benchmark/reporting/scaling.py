@@ -2,15 +2,16 @@
 """How the time of grouping grows with the number of shaders and of requests."""
 import math
 
-from .google_benchmark import Report
+from .google_benchmark import Report, machine_of
 from .markdown import size
 from .svg import Drawing, LogScale, apart, plain
 
 WIDTH, LEFT, RIGHT, HEIGHT = 440, 62, 316, 290
 NAMES = {"copy-5-bytes": "copy of 5 bytes", "bucket": "bucketing", "radix-sort": "radix sort", "compaction": "compaction",
          "queue-push": "queue push", "cub-radix-sort": "CUB's sort", "thrust-sort-u32": "Thrust's sort"}
-LOOKS = {"compaction": ("s1", "disc"), "radix-sort": ("s0", "disc"), "bucket": ("s2", "disc"), "queue-push": ("s3", "square"),
-         "cub-radix-sort": ("s4", "square"), "thrust-sort-u32": ("s5", "diamond"), "copy-5-bytes": ("s5", "square")}
+LOOKS = {"compaction": ("s1", "disc"), "radix-sort": ("s0", "disc"), "bucket": ("s2", "disc"),
+         "queue-push": ("s3", "square"), "cub-radix-sort": ("s4", "square"), "thrust-sort-u32": ("s5", "diamond"),
+         "copy-5-bytes": ("s5", "square")}
 
 
 def series(*paths, run=1):
@@ -56,7 +57,7 @@ def panel(d, top, curves, guides, unit, labels):
         look, shape = LOOKS[way]
         d.line([(x(a), y(b)) for a, b in points], f"line {look}")
         for a, b in points:
-            d.mark(shape, x(a), y(b), look, f"{NAMES[way]}, {a}: {b:.3g} {unit}")
+            d.mark(shape, x(a), y(b), look, f"{NAMES[way]}, {plain(a)}: {b:.3g} {unit}")
     for column in sorted({point[0] for point in ends.values()}):
         here = [name for name, point in ends.items() if point[0] == column]
         for name, place in zip(here, apart([y(ends[name][1]) for name in here], 15)):
@@ -66,20 +67,20 @@ def panel(d, top, curves, guides, unit, labels):
 def plot(*paths, n, shaders, run="1"):
     """Over the number of shaders at n requests, and over requests at a number of shaders."""
     found, context = series(*paths, run=int(run))
-    n, shaders = int(n), int(shaders)
+    n, shaders, order = int(n), int(shaders), "ids at random" if run == "1" else f"runs of {run}"
     ways = [way for way in LOOKS if way in found]
     most = max(time / count for points in found.values() for (_, count), time in points.items())
     unit, factor = ("ps", 1e6) if most < 1e-3 else ("ns", 1e3)
     over_m = {way: [(m, factor * t / n) for (m, count), t in sorted(found[way].items()) if count == n] for way in ways}
-    over_n = {way: [(count >> 20, factor * t / count) for (m, count), t in sorted(found[way].items()) if m == shaders]
-              for way in ways}
+    over_n = {way: [(count / (1 << 20), factor * t / count)
+                    for (m, count), t in sorted(found[way].items()) if m == shaders] for way in ways}
     guides = {}
     for name, way, law in (("× M", "compaction", lambda m: m), ("× log M", "radix-sort", math.log2)):
         if way in over_m:
             (first, value), every = over_m[way][0], [m for m, _ in over_m["bucket"]]
             guides[name] = [(m, value * law(m) / law(first)) for m in every]
     d = Drawing(WIDTH, 2 * HEIGHT + 26, f"Time of grouping over shaders and requests on one {context['machine']}")
-    d.text(8, 20, f"{context['machine']}, ids at random, {size(n)} requests" if run == "1" else context["machine"], "strong")
+    d.text(8, 20, f"{machine_of(context)}, {order}, {size(n)} requests", "strong")
     panel(d, 34, over_m, guides, unit, "shaders M")
     d.text(8, HEIGHT + 20, f"the same with {shaders} shaders", "strong")
     panel(d, HEIGHT + 34, over_n, {}, unit, "requests N, Mi")

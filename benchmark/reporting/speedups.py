@@ -2,7 +2,7 @@
 """The paper's five scenes by schedule, over unsorted implicit serialisation."""
 import math
 
-from .google_benchmark import Report
+from .google_benchmark import Report, machine_of
 from .markdown import size
 from .paper import LATER, SCENES, SCHEDULES, unsorted
 from .schedules import Cells
@@ -28,7 +28,7 @@ def plot(path, n, kind="index", runs="1,32"):
     x = LogScale(low, high, LEFT, RIGHT)
     block = TITLE + ROW * len(names) + GAP
     bottom = TOP + block * len(SCENES)
-    machine = report.context["machine"]
+    machine = machine_of(report.context)
     d = Drawing(WIDTH, bottom + 42, f"Speedup of schedules over unsorted implicit serialisation on one {machine}")
 
     d.text(8, 20, f"{machine}, {size(n)} requests, {kind} shaders", "strong")

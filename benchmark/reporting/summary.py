@@ -87,7 +87,8 @@ def summary(gpu, cpu, gpu_grouping, cpu_grouping, counters, gpu_n, cpu_n, n):
                                   ("scanning", "compaction", "8 times: M", 8)):
         add(f"{name}, 32 shaders instead of 4", law,
             [grows(way, limit)(path, int(n)) for path in (gpu_grouping, cpu_grouping)])
-    add("memory bandwidth against processor clock", "short shaders: memory", [balance(counters, gpu_grouping), NOT_MEASURED])
+    add("memory bandwidth against processor clock", "short shaders: memory",
+        [balance(counters, gpu_grouping), NOT_MEASURED])
     return table(["claim", "paper", "H200", "CPU", "on an H200", "on the CPU"], rows)
 
 

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A drawing as SVG text: the same bytes for the same calls, light and dark by the reader's preference, in colours of
-Okabe and Ito that colour-blind readers tell apart, and narrow enough for a phone."""
+"""A drawing as SVG text: the same bytes for the same calls, light and dark by the reader's preference, in colours after
+Okabe and Ito, which colour-blind readers tell apart, and narrow enough for a phone."""
 import html
 import math
 
 SERIES = 6  # colours, .s0 to .s5
 STYLE = """<style>
 text{font:13px sans-serif;fill:#1b1b1b} .soft{fill:#555} .small{font-size:12px} .strong{font-weight:bold}
-.back{fill:#fff} .grid{stroke:#ddd} .axis{stroke:#777} .band{fill:#999;opacity:.3} .guide{fill:none;stroke:#777;stroke-dasharray:5 4}
-.axis{fill:none} .line{fill:none;stroke-width:1.8} .thin{stroke-width:1.2} .open{fill:#fff;stroke-width:1.8}
+.back{fill:#fff} .grid{stroke:#ddd} .axis{stroke:#777} .band{fill:#999;opacity:.3} .guide{stroke:#777;stroke-dasharray:5 4}
+.axis,.guide{fill:none} .line{fill:none;stroke-width:1.8} .thin{stroke-width:1.2} .open{fill:#fff;stroke-width:1.8}
 .s0{color:#0072b2} .s1{color:#d55e00} .s2{color:#009e73} .s3{color:#b0568c} .s4{color:#b37700} .s5{color:#1b1b1b}
 .fill{fill:currentColor} .line,.thin,.open{stroke:currentColor}
 @media (prefers-color-scheme:dark){text{fill:#eee} .soft{fill:#b5b5b5} .back,.open{fill:#0d1117} .grid{stroke:#30363d}
