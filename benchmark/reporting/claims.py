@@ -71,20 +71,22 @@ def coherence(path, requests="16384"):
     return table(["shaders"] + [f"run {run}" for run in cells.runs], rows)
 
 
+def hits(path, schedule="implicit"):
+    """The scene of a report of the path tracer, and its heterogeneous efficiency hit by hit."""
+    with open(path, encoding="utf-8") as file:
+        report = json.load(file)
+    bounces = next(run["bounces"] for run in report["schedules"] if run["schedule"] == schedule)
+    return report["scene"].split(".")[0], [bounce["efficiency"] for bounce in bounces[:len(EFFICIENCY)]]
+
+
 def efficiency(*paths):
-    """The heterogeneous efficiency hit by hit: of the paper, and of reports of the path tracer, unsorted and by
-    the schedule that groups all requests."""
-    hits = len(EFFICIENCY)
-    rows = [["paper, unsorted"] + [f"{share} %" for share in EFFICIENCY]]
+    """Of the paper, and of reports of the path tracer: as requests come, and grouped."""
+    rows = [["the paper"] + [f"{share} %" for share in EFFICIENCY]]
     for path in paths:
-        with open(path, encoding="utf-8") as file:
-            report = json.load(file)
-        scene = report["scene"].split(".")[0]
-        for run in report["schedules"]:
-            if run["schedule"] in ("implicit", "bucket+explicit"):
-                shares = [f"{100 * b['efficiency']:.0f} %" for b in run["bounces"][:hits]]
-                rows.append([f"`{scene}`, {'unsorted' if run['schedule'] == 'implicit' else 'grouped'}"] + shares)
-    return table([""] + [f"hit {k + 1}" for k in range(hits)], rows)
+        for schedule, words in (("implicit", "as they come"), ("bucket+explicit", "grouped")):
+            scene, shares = hits(path, schedule)
+            rows.append([f"`{scene}`, {words}"] + [f"{100 * share:.0f} %" for share in shares])
+    return table([""] + [f"hit {k + 1}" for k in range(len(EFFICIENCY))], rows)
 
 
 def dispatches(*paths):

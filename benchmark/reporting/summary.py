@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """All claims of the paper in one table."""
-from .claims import verdict
+from .claims import hits, verdict
 from .google_benchmark import Report
 from .markdown import table
-from .paper import GROUPINGS, LATER, SCENES, SCHEDULES, unsorted
+from .paper import EFFICIENCY, GROUPINGS, LATER, SCENES, SCHEDULES, unsorted
 from .roofline import chosen, roofs
 from .scaling import growth, series
 from .schedules import Cells
@@ -66,9 +66,17 @@ def balance(counters, grouping):
     return f"{issue / memory:.2f} instructions per byte", "holds" if held else "no longer holds"
 
 
-def summary(gpu, cpu, gpu_grouping, cpu_grouping, counters, gpu_n, cpu_n, n):
-    """Of a GPU and a CPU: speedups of index shaders at so many requests, least to most over all lengths of runs, and
-    grouping of n."""
+def efficiencies(*paths):
+    """The least and the most of each hit, and in how many of all they are the paper's within ten points."""
+    found = [hits(path)[1] for path in paths]
+    words = ", ".join(f"{100 * min(shares):.0f} to {100 * max(shares):.0f}" for shares in zip(*found)) + " %"
+    return words, verdict([abs(100 * share - paper) <= 10 for shares in found
+                           for share, paper in zip(shares, EFFICIENCY)])
+
+
+def summary(gpu, cpu, gpu_grouping, cpu_grouping, counters, *paths, gpu_n, cpu_n, n):
+    """Of a GPU and a CPU: speedups of index shaders at so many requests, least to most over all lengths of runs;
+    grouping of n; and efficiencies of some reports of the path tracer, which no machine changes."""
     both = [(Cells(Report(path).times), int(size)) for path, size in ((gpu, gpu_n), (cpu, cpu_n))]
     rows = []
 
@@ -79,6 +87,7 @@ def summary(gpu, cpu, gpu_grouping, cpu_grouping, counters, gpu_n, cpu_n, n):
             found = [scene(cells, size, s.name, names) for cells, size in both]
             add(f"{s.name}, {whose}", s.words(),
                 [(f"{span(values)} times as fast", verdict([(v > 1) == s.pays() for v in values])) for values in found])
+    add("efficiency of the first four hits", ", ".join(map(str, EFFICIENCY)) + " %", [efficiencies(*paths)] * 2)
     add("grouped, explicit beats implicit", "almost always", [explicit_wins(cells) for cells, _ in both])
     add("explicit over unordered requests, to grouped ones", "large penalties", [penalty(*one) for one in both])
     add("its local sort, `local-bitonic`", "never successful", [never_best(cells, "local-bitonic") for cells, _ in both])
