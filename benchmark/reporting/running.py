@@ -95,5 +95,5 @@ def run(build, out, root, arguments):
             if report.times:
                 found[name] = report
     page_of(found, out, "benchmark/report.py --run")
-    print(f"{', '.join(found) or 'nothing'} in {out / 'report.md'}")
+    print(f"{', '.join(found) or 'nothing'} in {(out / 'report.md').relative_to(root)}")
     return f"failed: {', '.join(failed)}" if failed else 0

@@ -43,7 +43,8 @@ def plot(path, n, kind="index", runs="1,32"):
 
     for value in x.doublings():
         d.line([(x(value), TOP), (x(value), bottom)], "axis" if value == 1 else "grid")
-        d.text(x(value), bottom + 15, plain(value), "small soft", "middle")
+        if len(x.doublings()) <= 8 or math.log2(value) % 2 == 0:
+            d.text(x(value), bottom + 15, plain(value), "small soft", "middle")
     d.text((LEFT + RIGHT) / 2, bottom + 34, "times as fast as unsorted implicit", "", "middle")
     for k, scene in enumerate(SCENES):
         y = TOP + block * k + TITLE
