@@ -52,7 +52,7 @@ class Pages:
             raise Stale(f"{words}: there is no {name}, but {', '.join(functions)}")
         try:
             return functions[name](*files, **options)
-        except (TypeError, KeyError, IndexError) as error:
+        except (ArithmeticError, LookupError, StopIteration, TypeError, ValueError) as error:
             raise Stale(f"{words}: {type(error).__name__}: {error}") from error
 
     def wanted(self, page):
