@@ -24,6 +24,7 @@ def effects_of(path, over="all/auto"):
 
 VIEWS = {
     "ratios": ratios_of,
+    "spread": lambda path: Report(path).provenance(),
     "threads": several.threads,
     "peers": lambda path: several.peers(json.loads(path.read_text(encoding="utf-8"))),
     "bounces": lambda *paths: bounces.table(paths),
