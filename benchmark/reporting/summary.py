@@ -75,7 +75,8 @@ def efficiencies(*paths):
 
 def summary(gpu, cpu, gpu_grouping, cpu_grouping, cpu_scan, counters, *paths, gpu_n, cpu_n, n):
     """Of a GPU and a CPU: speedups of index shaders at so many requests, least to most over all lengths of runs;
-    grouping of n, the scan of a CPU from a report of its own; and efficiencies of some reports of the path tracer, which no machine changes."""
+    grouping of n, the scan of a CPU from a report of its own; and efficiencies of some reports of the path tracer,
+    which no machine changes."""
     both = [(Cells(Report(path).times), int(size)) for path, size in ((gpu, gpu_n), (cpu, cpu_n))]
     rows = []
 
