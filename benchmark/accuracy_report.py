@@ -17,6 +17,9 @@ import math
 import pathlib
 import sys
 
+from reporting import markdown
+from reporting.svg import Drawing, LogScale, plain
+
 
 def read(path):
     lines = pathlib.Path(path).read_text(encoding="utf-8").splitlines()
@@ -58,30 +61,37 @@ def seconds_for(results, spp):
     return max(fixed, 0) + slope * spp
 
 
-def table(path):
-    for scene, results in read(path).items():
-        first = results[0]
-        base = next((r for r in results if not r["changes"]), first)
-        print(f"### {scene}\n\n{first['machine']}, commit {first['commit']}, backend {first['backend']}, "
-              f"{first['width']} x {first['height']}, {first['seeds']} seeds. Reference: {first['reference_spp']} samples, "
-              f"its own relative error {percent(math.sqrt(first['reference_mse']))}.\n")
-        print("| setting | seconds | spread | error | variance | bias² | 99.9 % below | FLIP | rounding | efficiency |")
-        print("|---" * 10 + "|")
-        for r in sorted(results, key=lambda r: (len(r["changes"]), name(r).split()[0], r["seconds"])):
-            shown = "" if r["flip"] is None else f"{r['flip']:.3f}"
-            rounding = f"{r['rounding']['rms']:.1g} ({r['rounding']['median']:.0e})" if r.get("rounding") else ""
-            print(f"| {name(r)} | {r['seconds']:.3f} | {100 * r['seconds_spread'] / r['seconds']:.0f} % "
-                  f"| {percent(math.sqrt(r['relative_mse']))} | {r['relative_variance']:.2g} "
-                  f"| {r['relative_bias2']:.1g} | {r['p999']:.2g} | {shown} | {rounding} "
-                  f"| {r['efficiency'] / base['efficiency']:.2f} |")
-        slope, _ = line_through([(math.log(spp), math.log(r["relative_variance"]))
-                                 for spp, r in only_samples_differ(results)])
-        print(f"\nThe variance falls with the samples to the power of {slope:.2f}.\n")
-        print("| relative error | samples per pixel | seconds |\n|---|---|---|")
-        for error in (0.1, 0.01, 0.001):
-            spp = samples_for(results, error)
-            print(f"| {100 * error:g} % | {spp:.3g} | {seconds_for(results, spp):.3g} |")
-        print()
+def table(results):
+    """What was measured, what each setting of one scene takes and gives, and what an error costs."""
+    first = results[0]
+    base = next((r for r in results if not r["changes"]), first)
+    rows = []
+    for r in sorted(results, key=lambda r: (len(r["changes"]), name(r).split()[0], r["seconds"])):
+        rounding = f"{r['rounding']['rms']:.1g} ({r['rounding']['median']:.0e})" if r.get("rounding") else ""
+        rows.append([name(r), f"{r['seconds']:.3f}", f"{100 * r['seconds_spread'] / r['seconds']:.0f} %",
+                     percent(math.sqrt(r["relative_mse"])), f"{r['relative_variance']:.2g}",
+                     f"{r['relative_bias2']:.1g}", f"{r['p999']:.2g}", "" if r["flip"] is None else f"{r['flip']:.3f}",
+                     rounding, f"{r['efficiency'] / base['efficiency']:.2f}"])
+    slope, _ = line_through([(math.log(spp), math.log(r["relative_variance"]))
+                             for spp, r in only_samples_differ(results)])
+    costs = [[f"{100 * error:g} %", f"{samples_for(results, error):.3g}",
+              f"{seconds_for(results, samples_for(results, error)):.3g}"] for error in (0.1, 0.01, 0.001)]
+    return "\n\n".join([
+        f"{first['machine']}, commit {first['commit']}, backend {first['backend']}, {first['width']} x {first['height']}, "
+        f"{first['seeds']} seeds. Reference: {first['reference_spp']} samples, its own relative error "
+        f"{percent(math.sqrt(first['reference_mse']))}.",
+        markdown.table(["setting", "seconds", "spread", "error", "variance", "bias²", "99.9 % below", "FLIP", "rounding",
+                        "efficiency"], rows),
+        f"The variance falls with the samples to the power of {slope:.2f}.",
+        markdown.table(["relative error", "samples per pixel", "seconds"], costs)])
+
+
+def text(path):
+    """The tables of all scenes; a heading for each where there are several."""
+    scenes = read(path)
+    if len(scenes) == 1:
+        return "\n\n".join(f"`{scene}`, {table(results)}" for scene, results in scenes.items())
+    return "\n\n".join(f"### {scene}\n\n{table(results)}" for scene, results in scenes.items())
 
 
 def front(results):
@@ -94,48 +104,41 @@ def front(results):
     return found
 
 
-STYLE = """<style>
-text{font:12px sans-serif;fill:#222} .light{fill:#666} .axis{stroke:#888;fill:none} .front{stroke:#0072b2;fill:none;
-stroke-width:1.5} .on{fill:#0072b2} .off{fill:none;stroke:#e69f00;stroke-width:1.5}
-@media (prefers-color-scheme:dark){text{fill:#eee} .light{fill:#aaa}}
-</style>"""
-
-
-def panel(title, results, x0, y0, width, height):
-    times = [math.log10(r["seconds"]) for r in results]
-    errors = [math.log10(r["relative_mse"]) / 2 for r in results]
-    low_x, high_x, low_y, high_y = min(times), max(times), min(errors), max(errors)
-
-    def at(r):
-        x = (math.log10(r["seconds"]) - low_x) / (high_x - low_x)
-        y = (math.log10(r["relative_mse"]) / 2 - low_y) / (high_y - low_y)
-        return x0 + 8 + x * (width - 16), y0 + height - 8 - y * (height - 16)
-
+def panel(d, title, results, top, height):
+    """Error over seconds of every setting of a scene, and a line through those that no other beats in both."""
+    left, right, bottom = 58, 424, top + height - 66
+    times, errors = [r["seconds"] for r in results], [math.sqrt(r["relative_mse"]) for r in results]
+    x = LogScale(min(times) / 1.15, max(times) * 1.15, left, right)
+    y = LogScale(min(errors) / 1.15, max(errors) * 1.15, bottom, top)
     best = front(results)
-    out = [f'<text x="{x0}" y="{y0 - 6}">{title}</text>',
-           f'<rect class="axis" x="{x0}" y="{y0}" width="{width}" height="{height}"/>',
-           f'<text class="light" x="{x0}" y="{y0 + height + 14}">{10 ** low_x:.2g} s</text>',
-           f'<text class="light" x="{x0 + width}" y="{y0 + height + 14}" text-anchor="end">{10 ** high_x:.2g} s</text>',
-           f'<text class="light" x="{x0 - 4}" y="{y0 + 10}" text-anchor="end">{percent(10 ** high_y)}</text>',
-           f'<text class="light" x="{x0 - 4}" y="{y0 + height}" text-anchor="end">{percent(10 ** low_y)}</text>',
-           '<polyline class="front" points="' + " ".join("{:.1f},{:.1f}".format(*at(r)) for r in best) + '"/>']
-    for r in results:
-        x, y = at(r)
-        out.append(f'<circle class="{"on" if r in best else "off"}" cx="{x:.1f}" cy="{y:.1f}" r="3">'
-                   f"<title>{name(r)}: {percent(math.sqrt(r['relative_mse']))} in {r['seconds']:.3g} s</title></circle>")
-    return out
+    d.text(8, top - 14, title, "strong")
+    for value in x.round_values():
+        d.line([(x(value), top), (x(value), bottom)], "grid")
+        d.text(x(value), bottom + 17, plain(value), "small soft", "middle")
+    for value in y.round_values():
+        d.line([(left, y(value)), (right, y(value))], "grid")
+        d.text(left - 6, y(value) + 4, plain(100 * value), "small soft", "end")
+    d.text((left + right) / 2, bottom + 36, "seconds", "", "middle")
+    d.text(16, (top + bottom) / 2, "relative error, %", "", "middle", turned=True)
+    d.line([(x(r["seconds"]), y(math.sqrt(r["relative_mse"]))) for r in best], "line s0")
+    for r in sorted(results, key=lambda r: r in best):
+        error = math.sqrt(r["relative_mse"])
+        d.mark("disc" if r in best else "diamond", x(r["seconds"]), y(error), "s0" if r in best else "s4",
+               f"{name(r)}: {percent(error)} in {r['seconds']:.3g} s")
 
 
-def plot(path, files):
-    panels = [(f"{scene}, {results[0]['backend']}", results)
+def plot(files):
+    panels = [(f"{scene}, {results[0]['machine']}, {results[0]['backend']}", results)
               for file in files for scene, results in read(file).items()]
-    width, height = 280, 200
-    out = []
+    height = 300
+    d = Drawing(440, height * len(panels) + 44, "Relative error over seconds of the path tracer's settings")
+    d.mark("disc", 16, 16, "s0")
+    d.text(26, 20, "no other beats it in both")
+    d.mark("diamond", 221, 16, "s4")
+    d.text(231, 20, "another is faster and nearer")
     for k, (title, results) in enumerate(panels):
-        out += panel(title, results, 60 + k % 2 * (width + 80), 30 + k // 2 * (height + 60), width, height)
-    rows = (len(panels) + 1) // 2
-    head = f'<svg xmlns="http://www.w3.org/2000/svg" width="{2 * width + 160}" height="{rows * (height + 60) + 10}" role="img">'
-    pathlib.Path(path).write_text("\n".join([head, STYLE, *out]) + "\n</svg>\n", encoding="utf-8")
+        panel(d, title, results, height * k + 66, height)
+    return d.render()
 
 
 def schedules(path, reports):
@@ -146,19 +149,18 @@ def schedules(path, reports):
         scene = pathlib.Path(run["scene"]).stem
         spp = samples_for(scenes[scene], 0.01)
         names = [s["schedule"] for s in run["schedules"]]
-        seconds = [s["seconds"] / run["settings"]["spp"] * spp for s in run["schedules"]]
-        rows.append(f"| {scene} | {spp:.3g} | " + " | ".join(f"{s:.3g}" for s in seconds) + " |")
-    print("| scene | samples | " + " | ".join(f"`{n}`" for n in names) + " |\n" + "|---" * (len(names) + 2) + "|")
-    print("\n".join(rows))
+        rows.append([scene, f"{spp:.3g}"] +
+                    [f"{s['seconds'] / run['settings']['spp'] * spp:.3g}" for s in run["schedules"]])
+    return markdown.table(["scene", "samples"] + [f"`{n}`" for n in names], rows)
 
 
 def main(arguments):
     if arguments[:1] == ["table"] and len(arguments) == 2:
-        table(arguments[1])
+        print(text(arguments[1]))
     elif arguments[:1] == ["plot"] and len(arguments) > 2:
-        plot(arguments[1], arguments[2:])
+        pathlib.Path(arguments[1]).write_text(plot(arguments[2:]), encoding="utf-8")
     elif arguments[:1] == ["schedules"] and len(arguments) > 2:
-        schedules(arguments[1], arguments[2:])
+        print(schedules(arguments[1], arguments[2:]))
     else:
         sys.exit(__doc__)
 

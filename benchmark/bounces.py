@@ -12,6 +12,8 @@ import json
 import statistics
 import sys
 
+from reporting import markdown
+
 BOUNCES = 8
 
 
@@ -30,9 +32,7 @@ def read(paths):
     return reports
 
 
-def main(paths):
-    if not paths:
-        sys.exit(__doc__)
+def table(paths):
     reports = read(paths)
     settings = reports[0]["settings"]
     samples = settings["spp"]
@@ -52,18 +52,15 @@ def main(paths):
                  for b in range(bounces)]
         rows.append((sum(times), schedule["schedule"], times))
     requests = reports[0]["schedules"][0]["bounces"]
-
-    print(", ".join([f"{settings['width']} x {settings['height']}"] +
-                    [f"{key} {settings[key]}" for key in ("spp", "max_depth", "seed", "backend")] +
-                    [f"{len(reports)} runs"]) + "\n")
-    print("| schedule | " + " | ".join(f"{b + 1}" for b in range(bounces)) +
-          f" | 1 to {bounces} |\n" + "|---" * (bounces + 2) + "|")
-    print("| *thousand requests* | " + " | ".join(
-        f"{requests[b]['requests'] / samples / 1000:.0f}" for b in range(bounces)) + " | |")
-    for total, name, times in sorted(rows):
-        print(f"| `{name}` | " + " | ".join(f"{t:.3f}" for t in times) + f" | {total:.3f} |")
-    print(f"\nLargest spread: {100 * spread:.0f} %.")
+    lines = [["*thousand requests*"] + [f"{requests[b]['requests'] / samples / 1000:.0f}" for b in range(bounces)] + [""]]
+    lines += [[f"`{name}`"] + [f"{t:.3f}" for t in times] + [f"{total:.3f}"] for total, name, times in sorted(rows)]
+    return "\n\n".join([
+        ", ".join([f"{settings['width']} x {settings['height']}"] +
+                  [f"{key} {settings[key]}" for key in ("spp", "max_depth", "seed", "backend")] +
+                  [f"{len(reports)} runs"]),
+        markdown.table(["schedule"] + [f"{b + 1}" for b in range(bounces)] + [f"1 to {bounces}"], lines),
+        f"Largest spread: {100 * spread:.0f} %."])
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    print(table(sys.argv[1:])) if sys.argv[1:] else sys.exit(__doc__)

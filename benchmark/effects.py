@@ -20,6 +20,8 @@ import subprocess
 import sys
 import tempfile
 
+from reporting import markdown
+from reporting.svg import Drawing, LogScale, plain
 
 
 def render(arguments, program, scene, effects):
@@ -59,77 +61,96 @@ def write(path, result):
     temporary.replace(path)
 
 
-def table(path):
+# What a table compares, and what stands above it.
+PAIRS = {("all", "auto"): "", ("auto", "only"): "By its effects, over a program of those alone:"}
+
+
+def read(path):
     with open(path, encoding="utf-8") as file:
-        result = json.load(file)
+        return json.load(file)
+
+
+def measured(result):
+    settings = result["settings"]
+    return ", ".join([result["machine"], f"commit {result['commit']}", f"{settings['width']} x {settings['height']}"] +
+                     [f"{k} {settings[k]}" for k in ("backend", "spp", "max_depth", "repetitions")])
+
+
+def table(result, pair):
+    """The ratios of a pair of programs, and the spread of their times; empty where one of them did not run."""
+    if not all(any(run["effects"] == e for run in result["runs"]) for e in pair):
+        return ""
     numbers, spreads = {}, []
     for run in result["runs"]:
         for what in ("seconds", "shade_ms"):
-            key = (run["scene"], run["schedule"], run["effects"], what)
-            numbers.setdefault(key, []).append(run[what])
+            numbers.setdefault((run["scene"], run["schedule"], run["effects"], what), []).append(run[what])
     code = {run["scene"]: run["code_for"] for run in result["runs"] if run["effects"] == "auto"}
     schedules = list(dict.fromkeys(run["schedule"] for run in result["runs"]))
 
-    def ratio(scene, schedule, pair, what):
+    def ratio(scene, schedule, what):
         above, below = (numbers[scene, schedule, e, what] for e in pair)
         if what == "seconds":
             spreads.extend((max(v) - min(v)) / statistics.median(v) for v in (above, below))
         return statistics.median(above) / statistics.median(below)
 
-    settings = result["settings"]
-    print(", ".join([result["machine"], f"commit {result['commit']}", f"{settings['width']} x {settings['height']}"] +
-                    [f"{k} {settings[k]}" for k in ("backend", "spp", "max_depth", "repetitions")]))
-    for pair, title in ((("all", "auto"), ""), (("auto", "only"), "By its effects, over a program of those alone:\n\n")):
-        if not all(any(run["effects"] == e for run in result["runs"]) for e in pair):
-            continue
-        spreads.clear()
-        print(f"\n{title}| scene | effects in its code | " + " | ".join(f"`{s}`" for s in schedules) + " |")
-        print("|---" * (len(schedules) + 2) + "|")
-        for scene, names in code.items():
-            cells = [f"{ratio(scene, s, pair, 'seconds'):.2f} ({ratio(scene, s, pair, 'shade_ms'):.2f})"
-                     for s in schedules]
-            print(f"| {scene} | {len(names.split(', '))} | " + " | ".join(cells) + " |")
-        print(f"\nSpread of a picture's seconds, (most - least) / median: half of them at most "
-              f"{100 * statistics.median(spreads):.0f} %, the largest {100 * max(spreads):.0f} %.")
+    rows = [[scene, len(names.split(", "))] +
+            [f"{ratio(scene, s, 'seconds'):.2f} ({ratio(scene, s, 'shade_ms'):.2f})" for s in schedules]
+            for scene, names in code.items()]
+    return (markdown.table(["scene", "effects in its code"] + [f"`{s}`" for s in schedules], rows) +
+            "\n\nSpread of a picture's seconds, (most - least) / median: half of them at most "
+            f"{100 * statistics.median(spreads):.0f} %, the largest {100 * max(spreads):.0f} %.")
+
+
+def text(path, pairs=tuple(PAIRS)):
+    result = read(path)
+    parts = [measured(result)]
+    for pair in pairs:
+        found = table(result, pair)
+        if found:
+            parts += [PAIRS[pair]] * bool(PAIRS[pair] and len(pairs) > 1) + [found]
+    return "\n\n".join(parts)
 
 
 PLOTTED = ("implicit", "explicit", "bucket+explicit", "local", "window")
-STYLE = """<style>
-text{font:13px sans-serif;fill:#222} .light{fill:#666} line{stroke:#888} .a{fill:#0072b2} .b{fill:#e69f00}
-@media (prefers-color-scheme:dark){text{fill:#eee} .light{fill:#aaa}}
-</style>"""
 
 
-def plot(path, results):
-    """Bars of shading, all over auto, for each scene and some schedules; a colour for each of two results."""
-    runs = []
-    for name in results:
-        with open(name, encoding="utf-8") as file:
-            runs.append(json.load(file))
-    times = [{} for _ in runs]
-    for into, result in zip(times, runs):
+def plot(paths):
+    """Shading, all over auto, for each scene and some schedules: a disc for the first result, a diamond for the next."""
+    results, times = [read(path) for path in paths], []
+    for result in results:
+        times.append({})
         for run in result["runs"]:
-            into.setdefault((run["scene"], run["schedule"], run["effects"]), []).append(run["shade_ms"])
-    pairs = [p for p in dict.fromkeys((r["scene"], r["schedule"]) for r in runs[0]["runs"])
-             if p[1] in PLOTTED and all((*p, "all") in into for into in times)]
-    row, left, unit = 9 * len(runs) + 6, 190, 150
-    height = 40 + row * len(pairs)
-    out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="720" height="{height + 20}" role="img">', STYLE]
-    for k, result in enumerate(runs):
-        out.append(f'<rect class="{"ab"[k]}" x="{left + 250 * k}" y="8" width="12" height="12"/>'
-                   f'<text x="{left + 18 + 250 * k}" y="19">{result["machine"].split(",")[0]}</text>')
-    for i, (scene, schedule) in enumerate(pairs):
-        y = 36 + row * i
-        out.append(f'<text x="{left - 8}" y="{y + row / 2 + 2}" text-anchor="end">{scene} {schedule}</text>')
-        for k, into in enumerate(times):
-            ratio = (statistics.median(into[scene, schedule, "all"]) /
-                     statistics.median(into[scene, schedule, "auto"]))
-            out.append(f'<rect class="{"ab"[k]}" x="{left}" y="{y + 9 * k}" width="{unit * ratio:.1f}" height="8">'
-                       f"<title>{ratio:.2f}</title></rect>")
-    for x in (1, 2, 3):
-        out.append(f'<line x1="{left + unit * x}" x2="{left + unit * x}" y1="30" y2="{height}"/>'
-                   f'<text class="light" x="{left + unit * x}" y="{height + 14}" text-anchor="middle">{x}</text>')
-    pathlib.Path(path).write_text("\n".join(out) + "\n</svg>\n", encoding="utf-8")
+            times[-1].setdefault((run["scene"], run["schedule"], run["effects"]), []).append(run["shade_ms"])
+    scenes = [s for s in dict.fromkeys(run["scene"] for run in results[0]["runs"])
+              if all((s, name, "all") in found for found in times for name in PLOTTED)]
+
+    def ratio(found, scene, name):
+        return statistics.median(found[scene, name, "all"]) / statistics.median(found[scene, name, "auto"])
+    top, row, block, left, right = 48, 14, 21 + 14 * len(PLOTTED) + 9, 128, 426
+    bottom = top + block * len(scenes)
+    every = [ratio(found, scene, name) for found in times for scene in scenes for name in PLOTTED]
+    x = LogScale(min(0.75, min(every) / 1.1), max(4, max(every) * 1.1), left, right)
+    d = Drawing(440, bottom + 58, "Shading by code for all effects, over shading by code for those of the scene")
+    looks = list(zip(("disc", "diamond"), ("s0", "s1"), results))
+    for k, (shape, look, result) in enumerate(looks):
+        d.mark(shape, 16, 16 + 20 * k, look)
+        d.text(26, 20 + 20 * k, result["machine"])
+    for value in (0.5, 0.75, 1, 1.5, 2, 3, 4, 8):
+        if not x.low <= value <= x.high:
+            continue
+        d.line([(x(value), top), (x(value), bottom)], "axis" if value == 1 else "grid")
+        d.text(x(value), bottom + 15, plain(value), "small soft", "middle")
+    d.text((left + right) / 2, bottom + 34, "shading takes so many times as long", "", "middle")
+    d.text((left + right) / 2, bottom + 50, "by code for all effects", "", "middle")
+    for k, scene in enumerate(scenes):
+        d.text(8, top + block * k + 14, scene, "strong")
+        for i, name in enumerate(PLOTTED):
+            y = top + block * k + 21 + row * i + row / 2
+            d.text(left - 8, y + 4, name, "small", "end")
+            for (shape, look, _), found in zip(looks, times):
+                value = ratio(found, scene, name)
+                d.mark(shape, x(value), y, look, f"{scene}, {name}: {value:.2f}")
+    return d.render()
 
 
 def main():
@@ -154,9 +175,9 @@ def main():
     if arguments.command == "measure":
         measure(arguments)
     elif arguments.command == "plot":
-        plot(arguments.output, arguments.results)
+        pathlib.Path(arguments.output).write_text(plot(arguments.results), encoding="utf-8")
     else:
-        table(arguments.result)
+        print(text(arguments.result))
 
 
 if __name__ == "__main__":

@@ -11,6 +11,8 @@ import re
 import subprocess
 import sys
 
+from reporting import markdown
+
 # Threads of a block; those of window_kernel for tables of 9 to 16 shaders. (include/deferred_shade)
 BLOCK = {"switch_kernel": 256, "segments_kernel": 256, "tile_kernel": 512, "bitonic_kernel": 256, "window_kernel": 512}
 STAGES = ("find_hits", "trace_shadows", "generate_paths")
@@ -42,23 +44,28 @@ def warps(registers, threads):
     return min(blocks * threads, 2048) // 32
 
 
-def main(path):
-    with open(path, encoding="utf-8") as file:
-        text = file.read()
-    if not path.endswith(".json"):
-        return print(json.dumps(kernels_of(text), indent=1))
+def table(path):
     rows = {}
-    for k in json.loads(text):
-        rows.setdefault(k["kernel"], {})[k["effects"]] = k["registers"]
+    with open(path, encoding="utf-8") as file:
+        for k in json.load(file):
+            rows.setdefault(k["kernel"], {})[k["effects"]] = k["registers"]
     sets = sorted({effects for row in rows.values() for effects in row})
-    print("| kernel | " + " | ".join(f"{s} effects" for s in sets) + " |\n" + "|---" * (len(sets) + 1) + "|")
+    lines = []
     for kernel in (*BLOCK, *STAGES):
-        cells = []
+        line = [f"`{kernel}`"]
         for effects in sets:
             registers = rows.get(kernel, {}).get(effects)
             room = f" ({warps(registers, BLOCK[kernel])})" if registers and kernel in BLOCK else ""
-            cells.append(f"{registers}{room}" if registers else "")
-        print(f"| `{kernel}` | " + " | ".join(cells) + " |")
+            line.append(f"{registers}{room}" if registers else "")
+        lines.append(line)
+    return markdown.table(["kernel"] + [f"{s} effects" for s in sets], lines)
+
+
+def main(path):
+    if path.endswith(".json"):
+        return print(table(path))
+    with open(path, encoding="utf-8") as file:
+        print(json.dumps(kernels_of(file.read()), indent=1))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Finds what a page has from raw data, and makes it anew.
+
+    <!-- report: VIEW FILE... OPTION=VALUE... -->
+    what the view gives of these files of docs/results
+    <!-- end of report -->
+
+    <!-- plot: PLOT FILE... OPTION=VALUE... -->
+    ![what is to be seen](plot.svg)
+
+A report that stands in the middle of a line has no line breaks around it.
+"""
+import re
+import shlex
+
+REPORT = re.compile(r"(<!-- report: (.+?) -->)(\n?)(.*?)(<!-- end of report -->)", re.DOTALL)
+PLOT = re.compile(r"<!-- plot: (.+?) -->\n!\[[^\]]*\]\(([^)]+\.svg)\)")
+
+
+class Stale(ValueError):
+    """A marker that says nothing that can be made."""
+
+
+def number(value):
+    """8Mi and 128Ki in full; all else as it is."""
+    units = {"Ki": 1 << 10, "Mi": 1 << 20}
+    return str(int(value[:-2]) * units[value[-2:]]) if re.fullmatch(r"\d+[KM]i", value) else value
+
+
+def parse(words, raw):
+    """The name of a view, its files, and its options."""
+    name, *rest = shlex.split(words)
+    options = {word.split("=", 1)[0]: number(word.split("=", 1)[1]) for word in rest if "=" in word}
+    files = [raw / word for word in rest if "=" not in word]
+    missing = [file.name for file in files if not file.is_file()]
+    if missing:
+        raise Stale(f"{words}: there is no raw data {', '.join(missing)}")
+    return name, files, options
+
+
+class Pages:
+    """All pages below a folder, and `raw`, the folder of the data. `views` and `plots` are functions by name, of
+    files and options."""
+
+    def __init__(self, pages, raw, views, plots):
+        self.pages, self.raw, self.views, self.plots = pages, raw, views, plots
+        self.count = 0
+
+    def make(self, words, functions):
+        name, files, options = parse(words, self.raw)
+        if name not in functions:
+            raise Stale(f"{words}: there is no {name}, but {', '.join(functions)}")
+        try:
+            return functions[name](*files, **options)
+        except (ArithmeticError, LookupError, StopIteration, TypeError, ValueError) as error:
+            raise Stale(f"{words}: {type(error).__name__}: {error}") from error
+
+    def wanted(self, page):
+        """{path: text} of a page and its plots as they should be."""
+        text = page.read_text(encoding="utf-8")
+        if text.count("<!-- report: ") != len(REPORT.findall(text)) or \
+                text.count("<!-- plot: ") != len(PLOT.findall(text)):
+            raise Stale(f"{page.name}: a marker without its end, or a plot without its picture")
+        self.count += len(REPORT.findall(text)) + len(PLOT.findall(text))
+        found = {page: REPORT.sub(lambda m: f"{m[1]}{m[3]}{self.make(m[2], self.views)}{m[3]}{m[5]}", text)}
+        for words, picture in PLOT.findall(text):
+            found[page.parent / picture] = self.make(words, self.plots)
+        return found
+
+    def stale(self):
+        """(path, its text as it should be) of each file that differs."""
+        for page in self.pages:
+            for path, text in self.wanted(page).items():
+                if not path.is_file() or path.read_text(encoding="utf-8") != text:
+                    yield path, text
+
+    def unused(self):
+        """Raw data that no marker names."""
+        named = set()
+        for page in self.pages:
+            text = page.read_text(encoding="utf-8")
+            for words in [m[1] for m in REPORT.findall(text)] + [m[0] for m in PLOT.findall(text)]:
+                named.update(parse(words, self.raw)[1])
+        return sorted(file.name for file in self.raw.iterdir()
+                      if file.suffix in (".json", ".jsonl") and file not in named)
+
+
+def first_difference(path, wanted):
+    """The first line of a file that is not as it should be, and that line."""
+    if not path.is_file():
+        return "there is no such file"
+    lines = path.read_text(encoding="utf-8").split("\n")
+    for number, (has, should) in enumerate(zip(lines + [None], wanted.split("\n") + [None]), start=1):
+        if has != should:
+            return f"line {number} is\n    {has}\n  and the raw data gives\n    {should}"
+    return "its end differs"

@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a marker may name: the tables and the plots."""
+import json
+
+import accuracy_report
+import bounces
+import effects
+import ratios
+import registers
+
+from . import claims, compiling, roofline, scaling, several, speedups, summary
+from .google_benchmark import Report
+
+
+def ratios_of(path, headings="0"):
+    """All that benchmark/ratios.py says of a report; `headings` is their level, 0 leaves them out."""
+    return ratios.text(Report(path), int(headings))
+
+
+def effects_of(path, over="all/auto"):
+    """Of one pair of programs."""
+    return effects.text(path, [tuple(over.split("/"))])
+
+
+VIEWS = {
+    "ratios": ratios_of,
+    "spread": lambda path: Report(path).provenance(),
+    "threads": several.threads,
+    "peers": lambda path: several.peers(json.loads(path.read_text(encoding="utf-8"))),
+    "bounces": lambda *paths: bounces.table(paths),
+    "effects": effects_of,
+    "registers": registers.table,
+    "compiled-sets": several.compiled_sets,
+    "accuracy": accuracy_report.text,
+    "accuracy-schedules": lambda path, *reports: accuracy_report.schedules(path, reports),
+    "compile-time": compiling.compile_time,
+    "summary": summary.summary,
+    "speedup": summary.speedup,
+    "scenes": claims.scenes,
+    "coherence": claims.coherence,
+    "efficiency": claims.efficiency,
+    "dispatches": claims.dispatches,
+    "unordered": claims.unordered,
+    "local": claims.local,
+    "scaling": claims.scaling,
+    "roofs": roofline.counters,
+}
+PLOTS = {
+    "effects": lambda *paths: effects.plot(paths),
+    "accuracy": lambda *paths: accuracy_report.plot(paths),
+    "speedups": speedups.plot,
+    "scaling": scaling.plot,
+    "roofline": roofline.plot,
+}
