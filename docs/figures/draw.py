@@ -18,8 +18,7 @@ EVERYONE = range(len(WAVE))
 def wave():
     p = Picture("A wave of sixteen requests, four shaders, four lanes per warp")
     p.head("A wave: requests, each with a shader")
-    p.numbers(EVERYONE)
-    p.requests(EVERYONE, indices=False)
+    p.requests(EVERYONE)
     p.warps([f"warp {w}" for w in range(len(WAVE) // WARP)])
     p.head("What a shader takes")
     p.costs()
@@ -94,24 +93,24 @@ def compact():
 
 def sort():
     p = Picture("A radix sort of ids and indices, bit by bit")
-    p.head("Ids and indices (A, B, C, D: 00, 01, 10, 11)")
-    for number, order in enumerate(lanes.radix_passes()):
-        if number:
-            p.head(f"Pass {number}: by {'the lower' if number == 1 else 'the upper'} bit, else in order")
+    heads = ["Below each index: the lower bit of the id", "Pass 1: by the lower bit. Below: the upper bit",
+             "Pass 2: by the upper bit"]
+    for number, (head, order) in enumerate(zip(heads, lanes.radix_passes())):
+        p.head(head)
         p.requests(order)
-        if number + 1 < len(lanes.radix_passes()):
+        if number + 1 < len(heads):
             p.numbers([SHADERS.index(WAVE[r]) >> number & 1 for r in order])
     return p
 
 
 def table(p, rows, names):
     """Numbers by shader, a row per tile."""
-    for position, shader in enumerate(SHADERS, 5):
+    for position, shader in enumerate(SHADERS, 4):
         p.cell(position, shader)
     p.y += CELL
     for name, row in zip(names, rows):
         p.text(LEFT, p.y + 11, name)
-        p.numbers(row, 5)
+        p.numbers(row, 4)
 
 
 def bucket():

@@ -6,7 +6,7 @@ from lanes import COSTS, SHADERS, WARP, WAVE
 CELL, GAP, LEFT, WIDTH = 20, 6, 21, 380
 STYLE = """<style>
 .card{fill:#fff;stroke:#d0d0d0} text{font:12px sans-serif;fill:#222;text-anchor:middle} .say{text-anchor:start}
-.head{font-weight:bold;text-anchor:start} .small{font-size:10px;fill:#595959}
+.head{font-weight:bold;text-anchor:start} .small{font-size:11px;fill:#595959}
 .A{fill:#e69f00} .B{fill:#56b4e9} .C{fill:#009e73} .D{fill:#cc79a7} .on{fill:#111} .off{fill:#eee}
 .wait{fill:none;stroke:#999} .none{fill:none;stroke:#999;stroke-dasharray:2 3} .line{fill:none;stroke:#777}
 @media (prefers-color-scheme:dark){.card{fill:#16191d;stroke:#444} text{fill:#e8e8e8} .small{fill:#b0b0b0}
@@ -100,14 +100,13 @@ class Picture:
         self.say(f"{run.active()} of {run.held()} lane-steps are work: {run.efficiency():.0%}")
 
     def bar(self, name, run):
-        """A bar of a run's efficiency, with the name above it."""
-        self.say(name)
+        """A bar of a run's efficiency, with the name and the numbers above it."""
+        self.say(f"{name}: {run.active()} of {run.held()}, {run.efficiency():.0%}")
         width = WIDTH - 2 * LEFT
-        self.out.append(f'<rect class="off" x="{LEFT}" y="{self.y}" width="{width}" height="14" rx="3"/>')
+        self.out.append(f'<rect class="off" x="{LEFT}" y="{self.y}" width="{width}" height="10" rx="3"/>')
         self.out.append(f'<rect class="B" x="{LEFT}" y="{self.y}" width="{width * run.efficiency():.1f}" '
-                        'height="14" rx="3"/>')
-        self.text(LEFT + 6, self.y + 11, f"{run.active()} / {run.held()} = {run.efficiency():.0%}", "say on")
-        self.y += 18
+                        'height="10" rx="3"/>')
+        self.y += 16
 
     def svg(self):
         height = self.y + 12
