@@ -206,6 +206,8 @@ class Site:
             if name.startswith(("class", "struct", "namespace")):
                 name = "reference"
             text = tidied(path.read_text(encoding="utf-8"), name == "reference")
+            if name == "reference":  # comments name pages as files
+                text = re.sub(r"docs/[\w/-]+\.md", lambda m: f'<a href="{self.pages[m[0]]}.html">{m[0]}</a>', text)
             texts[path] = text.replace("<!-- navigation -->", self.navigation(name))
             path.write_text(texts[path], encoding="utf-8")
         for page, name in self.pages.items():
