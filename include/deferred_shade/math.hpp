@@ -8,11 +8,11 @@
 #include <deferred_shade/bits.hpp>
 #include <deferred_shade/config.hpp>
 
-/// Functions for shaders that run in vectors: those of <cmath> are calls, and a loop with a call in
-/// it stays scalar. These are made of arithmetic and selections alone, so that a compiler that
+/// Functions for shaders that run in vectors: those of `<cmath>` are calls, and a loop with a call
+/// in it stays scalar. These are made of arithmetic and selections alone, so that a compiler that
 /// vectorises a shader vectorises them as well. In CUDA's device code they are CUDA's own.
 ///
-/// They take and give what <cmath>'s do, infinities and NaN included, but for the sign of a zero
+/// They take and give what `<cmath>` has, infinities and NaN included, but for the sign of a zero
 /// and what is said of each; errno and the floating-point exceptions mean nothing after them. The
 /// errors in units in the last place are those of the host, which test/math.cpp finds against long
 /// double; CUDA states its own. Not for -ffast-math, which drops NaN and infinity.

@@ -12,7 +12,7 @@
 #include <deferred_shade/types.hpp>
 
 // How a CPU runs one shader on many requests: their records are packed, and the shader runs over
-// them in a loop that compilers vectorise (docs/guide.md, "Vectors on a CPU").
+// them in a loop that compilers vectorise (docs/records.md, "Vectors on a CPU").
 
 /// Goes before a function that is compiled by itself, with all that it calls inlined.
 #if DEFERRED_SHADE_HAS_GNU

@@ -145,7 +145,7 @@ occurrences count_occurrences(Policy const& exec, Count n, Ids ids, shader_id sh
 }
 
 /// The heterogeneous efficiency of `n` requests in the order in which lanes take them: the work
-/// that shaders ask for over the work that the lanes are held for,
+/// that shaders ask for over the work that the lanes are held for. This is
 ///
 ///     sum(n_i |A_i|) / (width * sum(min(n_i, 1) |A_i|)),
 ///

@@ -48,7 +48,7 @@ void run_implicit(host_system, Policy const& exec, grouping group,
 /// One launch over all requests, with a switch: where neighbours need different shaders, the
 /// hardware runs one after the other. Schedule 1 of Hoberock et al., HPG 2009, and, over a
 /// grouping, the second half of its schedules 3 and 5. On CUDA, the loads and stores of record
-/// shaders are taken out of the switch (docs/guide.md).
+/// shaders are taken out of the switch (docs/gpu.md).
 struct implicit_serialization {
   /// The schedule: requests as they come.
   template <class Policy, class Count, class Ids, class... Shaders, class Workspace>

@@ -47,8 +47,8 @@ void run_tiles(host_system, bitonic, Policy const& exec, request_index n, Ids id
 /// over its requests. Or it is `bitonic`: a bitonic sort inside the tile, then the switch, schedule
 /// 7 of Hoberock et al., HPG 2009.
 ///
-/// On CPUs, record shaders run in vectors where the compiler makes them (docs/guide.md, "Vectors on
-/// a CPU"), and a tile whose neighbours mostly name the same shader is run as it lies.
+/// On CPUs, record shaders run in vectors where the compiler makes them (docs/records.md, "Vectors
+/// on a CPU"), and a tile whose neighbours mostly name the same shader is run as it lies.
 ///
 /// On CUDA, a table of record shaders with sources of one type and sinks of one type, whose
 /// requests and results are trivially copyable and small enough, passes through shared memory: the
