@@ -13,16 +13,19 @@ double area(triangle const& t) {
   return 0.5 * glm::length(glm::cross(b - a, c - a));
 }
 
-/// Vose's construction (1991) of the alias table of these powers; their sum is positive.
+/// Vose's construction (1991) of the alias table of these powers; their sum is positive. What is
+/// left of equal powers may be off the mean by rounding alone and counts as the mean: otherwise
+/// float and double would draw other lights from the same random numbers.
 void build_alias_table(std::vector<light_entry>& entries, std::vector<double> power, double sum) {
   auto const count = static_cast<double>(power.size());
+  double const mean = 1 - 1e-6;
   std::vector<std::uint32_t> small, large;
   for (std::uint32_t i = 0; i < power.size(); ++i) {
     entries[i].probability = static_cast<real>(power[i] / sum);
     entries[i].keep = 1;
     entries[i].alias = i;
     power[i] *= count / sum;
-    (power[i] < 1 ? small : large).push_back(i);
+    (power[i] < mean ? small : large).push_back(i);
   }
   while (!small.empty() && !large.empty()) {
     std::uint32_t const s = small.back(), l = large.back();
@@ -30,7 +33,7 @@ void build_alias_table(std::vector<light_entry>& entries, std::vector<double> po
     entries[s].keep = static_cast<real>(power[s]);
     entries[s].alias = l;
     power[l] -= 1 - power[s];
-    if (power[l] >= 1) continue;
+    if (power[l] >= mean) continue;
     large.pop_back();
     small.push_back(l);
   }

@@ -124,6 +124,25 @@ TEST_CASE("a light is picked in proportion to its power, and reports that densit
   CHECK_THAT(double(bright) / count, WithinAbs(6.0 / 13, 0.008));
 }
 
+TEST_CASE("rounding of equal lights' powers does not decide which one is drawn", "[lights]") {
+  // The bright one's triangles, each less one of the other's, are the mean but for rounding.
+  float const bright = GENERATE(1.5f, 1.6f, 1.9f);
+  std::vector<std::uint32_t> aliases;
+  for (float const ulps : {-2.f, -1.f, 0.f, 1.f, 2.f}) {
+    float const edge = 1 + ulps * 0x1p-23f;
+    scene const s =
+        scene_of({{{0, 0, 0}, {edge, 0, 0}, {0, 1, 0}, 0}, {{0, 0, 2}, {1, 0, 0}, {0, 1, 0}, 1}},
+                 {vec3{bright}, vec3{2 - bright}});
+    light_list const lights(s);
+    light_view const view = lights.view(s);
+    REQUIRE(view.count == 4);
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t i = 0; i < view.count; ++i) found.push_back(view.entries[i].alias);
+    if (aliases.empty()) aliases = found;
+    CHECK(found == aliases);
+  }
+}
+
 TEST_CASE("punctual lights follow KHR_lights_punctual", "[lights]") {
   punctual_light light;
   light.intensity = {8, 4, 2};
