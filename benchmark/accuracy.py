@@ -5,8 +5,8 @@
     benchmark/accuracy.py PATH_TRACER --backend NAME -o RESULT.jsonl SCENE...
 
 renders every scene by every setting below with several seeds, compares the pictures with a reference, and
-appends one line of JSON for each setting. A setting that the file has is not measured again: an interrupted
-run goes on where it was. References and unfinished pictures lie in --cache, by names that say scene, size,
+appends one line of JSON for each setting. A setting that the file has is not measured again, nor a picture that
+the cache has: an interrupted run goes on where it was. References and unfinished pictures lie in --cache, by names that say scene, size,
 seed, samples and precision. benchmark/accuracy_report.py makes tables and plots. Needs NumPy; FLIP is filled in
 where the package flip-evaluator is installed. The programs path_tracer_double, path_tracer_fast and
 path_tracer_compact (cmake -DDEFERRED_SHADE_BUILD_ACCURACIES=ON) lie beside PATH_TRACER; the first makes the references; none of them has the backend tbb.
@@ -121,10 +121,24 @@ def flip(r, x):
     return float(flip_evaluator.evaluate(shown(r), shown(x), "LDR")[1])
 
 
-def render_seeds(arguments, scene, setting):
+def names_of(arguments, scene, setting):
+    """What the pictures of all seeds are called."""
     what = json.dumps([arguments.backend, arguments.schedule, arguments.commit, setting], sort_keys=True)
     digest = hashlib.sha256(what.encode()).hexdigest()[:12]
-    names = [f"{scene.stem}-{arguments.width}x{arguments.height}-{digest}-seed{seed}" for seed in range(arguments.seeds)]
+    return [f"{scene.stem}-{arguments.width}x{arguments.height}-{digest}-seed{seed}" for seed in range(arguments.seeds)]
+
+
+def render_in_turns(arguments, scene, wanted):
+    """All settings with one seed, then all with the next: what disturbs the machine for a while falls on a seed of
+    many settings, and not on many seeds of one."""
+    for seed in range(arguments.seeds):
+        for k, setting in enumerate(wanted):
+            render(arguments, scene, setting, seed, names_of(arguments, scene, setting)[seed])
+            print(f"{scene.stem}, seed {seed + 1}/{arguments.seeds}: {k + 1}/{len(wanted)} settings", flush=True)
+
+
+def render_seeds(arguments, scene, setting):
+    names = names_of(arguments, scene, setting)
     return [render(arguments, scene, setting, seed, name) for seed, name in enumerate(names)], names
 
 
@@ -190,6 +204,7 @@ def main():
     for k, (scene, setting) in enumerate(wanted):
         if truth_of != scene:
             truth_of, truth = scene, reference(arguments, scene)
+            render_in_turns(arguments, scene, [s for other, s in wanted if other == scene])
         result, names = measure(arguments, scene, setting, *truth)
         with open(arguments.output, "a", encoding="utf-8") as file:
             file.write(json.dumps({**common, **result}) + "\n")

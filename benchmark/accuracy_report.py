@@ -3,18 +3,21 @@
 """Tables and plots of what benchmark/accuracy.py has measured.
 
     benchmark/accuracy_report.py table RESULT.jsonl
+    benchmark/accuracy_report.py knobs RESULT.jsonl SPP
+    benchmark/accuracy_report.py digits RESULT.jsonl...
     benchmark/accuracy_report.py plot PLOT.svg RESULT.jsonl...
-    benchmark/accuracy_report.py schedules RESULT.jsonl REPORT.json...
+    benchmark/accuracy_report.py schedules RESULT.jsonl REPORTS.jsonl
 
-`table` prints Markdown: for every scene what each setting takes and gives, the slope of the convergence, and what
-a digit costs. `plot` draws error against time, a panel for each scene and file, with the settings that no other beats in
-both joined by a line. `schedules` takes reports of `path_tracer --schedule all` over the same scenes and prints
-the seconds in which each schedule reaches a relative error of 1 %: as schedules change no bit, that is its time per
-sample times the samples which that takes.
+`table` prints Markdown: for every scene what each setting takes and gives. `knobs` sets the settings with SPP samples side
+by side over scenes, and `digits` what a digit costs. `plot` draws error against time, a panel for each scene and file, with
+the settings that no other beats in both joined by a line. `schedules` takes reports of `path_tracer --schedule all` over the
+same scenes, one a line, and prints the seconds in which each schedule reaches a relative error of 1 %: as schedules change
+no bit, that is its time per sample times the samples which that takes.
 """
 import json
 import math
 import pathlib
+import statistics
 import sys
 
 from reporting import markdown
@@ -56,9 +59,15 @@ def samples_for(results, error):
     return sorted(per_sample)[len(per_sample) // 2] / error ** 2
 
 
-def seconds_for(results, spp):
+def seconds_of_samples(results):
+    """Seconds per sample, and those that no sample takes."""
     slope, fixed = line_through([(spp, r["seconds"]) for spp, r in only_samples_differ(results)])
-    return max(fixed, 0) + slope * spp
+    return slope, max(fixed, 0)
+
+
+def convergence(results):
+    """The power of the samples with which the variance falls: -1, but for what few samples find."""
+    return line_through([(math.log(spp), math.log(r["relative_variance"])) for spp, r in only_samples_differ(results)])[0]
 
 
 def table(results):
@@ -72,18 +81,12 @@ def table(results):
                      percent(math.sqrt(r["relative_mse"])), f"{r['relative_variance']:.2g}",
                      f"{r['relative_bias2']:.1g}", f"{r['p999']:.2g}", "" if r["flip"] is None else f"{r['flip']:.3f}",
                      rounding, f"{r['efficiency'] / base['efficiency']:.2f}"])
-    slope, _ = line_through([(math.log(spp), math.log(r["relative_variance"]))
-                             for spp, r in only_samples_differ(results)])
-    costs = [[f"{100 * error:g} %", f"{samples_for(results, error):.3g}",
-              f"{seconds_for(results, samples_for(results, error)):.3g}"] for error in (0.1, 0.01, 0.001)]
     return "\n\n".join([
         f"{first['machine']}, commit {first['commit']}, backend {first['backend']}, {first['width']} x {first['height']}, "
         f"{first['seeds']} seeds. Reference: {first['reference_spp']} samples, its own relative error "
         f"{percent(math.sqrt(first['reference_mse']))}.",
         markdown.table(["setting", "seconds", "spread", "error", "variance", "bias²", "99.9 % below", "FLIP", "rounding",
-                        "efficiency"], rows),
-        f"The variance falls with the samples to the power of {slope:.2f}.",
-        markdown.table(["relative error", "samples per pixel", "seconds"], costs)])
+                        "efficiency"], rows)])
 
 
 def text(path):
@@ -92,6 +95,41 @@ def text(path):
     if len(scenes) == 1:
         return "\n\n".join(f"`{scene}`, {table(results)}" for scene, results in scenes.items())
     return "\n\n".join(f"### {scene}\n\n{table(results)}" for scene, results in scenes.items())
+
+
+def bias(r):
+    """The root of bias², where it stands out of what noise leaves of it; about 0 otherwise."""
+    least = 0.05 * r["relative_variance"] / r["seeds"] + r["reference_mse"]
+    return percent(math.sqrt(r["relative_bias2"])) if r["relative_bias2"] > least else "-"
+
+
+def knobs(path, spp):
+    """Settings that have these samples, over the one that changes nothing else: time, efficiency, and bias."""
+    scenes = {scene: {name(r): r for r in results if r["setting"]["spp"] == int(spp)}
+              for scene, results in read(path).items()}
+    base = {scene: next(r for r in found.values() if set(r["changes"]) <= {"spp"}) for scene, found in scenes.items()}
+    settings = [s for s, r in next(iter(scenes.values())).items() if not set(r["changes"]) <= {"spp"}]
+    rows = []
+    for setting in settings:
+        cells = [setting.removeprefix(f"spp {spp}, ")]
+        for scene, found in scenes.items():
+            r, b = found.get(setting), base[scene]
+            cells.append(f"{r['seconds'] / b['seconds']:.2f} / {r['efficiency'] / b['efficiency']:.2f} / {bias(r)}" if r else "")
+        rows.append(cells)
+    return markdown.table([f"with {spp} samples", *scenes], rows)
+
+
+def digits(*paths):
+    """What an error costs on each machine and scene."""
+    rows = []
+    for path in paths:
+        for scene, results in read(path).items():
+            slope, fixed = seconds_of_samples(results)
+            samples = {error: samples_for(results, error) for error in (0.1, 0.01, 0.001)}
+            rows.append([scene, results[0]["machine"], f"{convergence(results):.2f}", f"{samples[0.01]:.2g}", f"{fixed:.2g}"] +
+                        [f"{fixed + slope * n:.3g}" for n in samples.values()])
+    return markdown.table(["scene", "machine", "slope of the variance", "samples for 1 %", "fixed, s", "10 %, s", "1 %, s",
+                           "0.1 %, s"], rows)
 
 
 def front(results):
@@ -142,25 +180,35 @@ def plot(files):
 
 
 def schedules(path, reports):
-    scenes = read(path)
+    """Medians over a scene's reports; the spread is the largest of any schedule."""
+    scenes, runs = read(path), {}
+    for report in map(json.loads, pathlib.Path(reports).read_text(encoding="utf-8").splitlines()):
+        runs.setdefault(pathlib.Path(report["scene"]).stem, []).append(report)
     rows, names = [], []
-    for report in reports:
-        run = json.loads(pathlib.Path(report).read_text(encoding="utf-8"))
-        scene = pathlib.Path(run["scene"]).stem
+    for scene, several in runs.items():
         spp = samples_for(scenes[scene], 0.01)
-        names = [s["schedule"] for s in run["schedules"]]
-        rows.append([scene, f"{spp:.3g}"] +
-                    [f"{s['seconds'] / run['settings']['spp'] * spp:.3g}" for s in run["schedules"]])
-    return markdown.table(["scene", "samples"] + [f"`{n}`" for n in names], rows)
+        names = [s["schedule"] for s in several[0]["schedules"]]
+        times = [[run["schedules"][k]["seconds"] / run["settings"]["spp"] for run in several] for k in range(len(names))]
+        medians = [statistics.median(t) for t in times]
+        spread = max((max(t) - min(t)) / m for t, m in zip(times, medians))
+        best = min(medians)
+        rows.append([scene, f"{spp:.3g}", len(several), percent(spread)] +
+                    [f"**{m * spp:.3g}**" if m == best else f"{m * spp:.3g}" for m in medians])
+    return markdown.table(["scene", "samples", "runs", "spread"] + [f"`{n}`" for n in names], rows)
 
 
 def main(arguments):
-    if arguments[:1] == ["table"] and len(arguments) == 2:
-        print(text(arguments[1]))
-    elif arguments[:1] == ["plot"] and len(arguments) > 2:
-        pathlib.Path(arguments[1]).write_text(plot(arguments[2:]), encoding="utf-8")
-    elif arguments[:1] == ["schedules"] and len(arguments) > 2:
-        print(schedules(arguments[1], arguments[2:]))
+    what, rest = arguments[:1], arguments[1:]
+    if what == ["table"] and len(rest) == 1:
+        print(text(*rest))
+    elif what == ["knobs"] and len(rest) == 2:
+        print(knobs(*rest))
+    elif what == ["digits"] and rest:
+        print(digits(*rest))
+    elif what == ["plot"] and len(rest) > 1:
+        pathlib.Path(rest[0]).write_text(plot(rest[1:]), encoding="utf-8")
+    elif what == ["schedules"] and len(rest) == 2:
+        print(schedules(*rest))
     else:
         sys.exit(__doc__)
 
