@@ -8,7 +8,7 @@ import effects
 import ratios
 import registers
 
-from . import claims, compiling, means, roofline, scaling, several, speedups, summary
+from . import claims, compiling, hits, means, roofline, scaling, several, speedups, summary
 from .google_benchmark import Report
 
 
@@ -41,8 +41,9 @@ VIEWS = {
     "apart": means.apart,
     "scenes": claims.scenes,
     "coherence": claims.coherence,
-    "efficiency": claims.efficiency,
+    "efficiency": hits.efficiency,
     "dispatches": claims.dispatches,
+    "dispatches-by-set": claims.dispatches_by_set,
     "unordered": claims.unordered,
     "local": claims.local,
     "scaling": claims.scaling,
@@ -54,4 +55,5 @@ PLOTS = {
     "speedups": speedups.plot,
     "scaling": scaling.plot,
     "roofline": roofline.plot,
+    "efficiency": hits.plot,
 }
