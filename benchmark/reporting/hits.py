@@ -10,12 +10,18 @@ WIDTH, LEFT, RIGHT, TOP, BOTTOM = 440, 58, 344, 40, 250
 LOOKS = (("s5", "square"), ("s0", "disc"), ("s1", "diamond"), ("s2", "disc"), ("s3", "square"))
 
 
-def hits(path, schedule="implicit"):
-    """The scene of a report of the path tracer, and its heterogeneous efficiency hit by hit."""
+def bounces_of(path, schedule):
+    """The scene of a report of the path tracer, and its first bounces by a schedule."""
     with open(path, encoding="utf-8") as file:
         report = json.load(file)
-    bounces = next(run["bounces"] for run in report["schedules"] if run["schedule"] == schedule)
-    return report["scene"].split(".")[0], [bounce["efficiency"] for bounce in bounces[:len(EFFICIENCY)]]
+    bounces = {run["schedule"]: run["bounces"] for run in report["schedules"]}[schedule]
+    return report["scene"].split(".")[0], bounces[:len(EFFICIENCY)]
+
+
+def hits(path, schedule="implicit"):
+    """The scene of a report of the path tracer, and its heterogeneous efficiency hit by hit."""
+    scene, bounces = bounces_of(path, schedule)
+    return scene, [bounce["efficiency"] for bounce in bounces]
 
 
 def efficiency(*paths):
@@ -25,6 +31,9 @@ def efficiency(*paths):
         for schedule, words in (("implicit", "as they come"), ("bucket+explicit", "grouped")):
             scene, shares = hits(path, schedule)
             rows.append([f"`{scene}`, {words}"] + [f"{100 * share:.0f} %" for share in shares])
+        scene, bounces = bounces_of(path, "implicit")
+        rows.append([f"`{scene}`, paths left"] +
+                    [f"{100 * bounce['requests'] / bounces[0]['requests']:.0f} %" for bounce in bounces])
     return table([""] + [f"hit {k + 1}" for k in range(len(EFFICIENCY))], rows)
 
 
