@@ -60,10 +60,10 @@ def sections(report):
 
 
 def text(report, level=2):
-    """All that there is to say of a report; its titles are headings of a level, or left out with level 0."""
+    """All that there is to say of a report; its titles are headings of a level, or lines of the text with level 0."""
     parts = [report.provenance()]
     for title, body in sections(report):
-        parts += [f"{'#' * level} {title}"] * (level > 0) + [body]
+        parts += [f"{'#' * level} {title}" if level > 0 else f"{title}:", body]
     return "\n\n".join(parts)
 
 

@@ -22,6 +22,7 @@ import tempfile
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
+from reporting.google_benchmark import without_names
 from reporting.several import peers
 
 try:
@@ -165,7 +166,7 @@ def time_ours(program, materials, threads, calls):
         seconds, _ = found.setdefault(cell["name"].split("/")[2],
                                       ([], [cell[f"mean_{c}"] for c in "rgb"]))
         seconds.append(1e-6 * cell["real_time"])
-    return found, report["context"]
+    return found, without_names(report["context"])
 
 
 def main():

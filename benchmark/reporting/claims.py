@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The paper's claims next to the raw data, a table for each."""
-import json
 import statistics
 from collections import defaultdict
 
 from .google_benchmark import Report, geometric_mean
 from .markdown import size, table
-from .paper import EFFICIENCY, GROUPINGS, LATER, SCENES, SCHEDULES, unsorted
+from .paper import GROUPINGS, LATER, SCENES, SCHEDULES, unsorted
 from .scaling import NAMES, growth, series
 from .schedules import Cells
 
@@ -71,24 +70,6 @@ def coherence(path, requests="16384"):
     return table(["shaders"] + [f"run {run}" for run in cells.runs], rows)
 
 
-def hits(path, schedule="implicit"):
-    """The scene of a report of the path tracer, and its heterogeneous efficiency hit by hit."""
-    with open(path, encoding="utf-8") as file:
-        report = json.load(file)
-    bounces = next(run["bounces"] for run in report["schedules"] if run["schedule"] == schedule)
-    return report["scene"].split(".")[0], [bounce["efficiency"] for bounce in bounces[:len(EFFICIENCY)]]
-
-
-def efficiency(*paths):
-    """Of the paper, and of reports of the path tracer: as requests come, and grouped."""
-    rows = [["the paper"] + [f"{share} %" for share in EFFICIENCY]]
-    for path in paths:
-        for schedule, words in (("implicit", "as they come"), ("bucket+explicit", "grouped")):
-            scene, shares = hits(path, schedule)
-            rows.append([f"`{scene}`, {words}"] + [f"{100 * share:.0f} %" for share in shares])
-    return table([""] + [f"hit {k + 1}" for k in range(len(EFFICIENCY))], rows)
-
-
 def dispatches(*paths):
     """After a grouping: in how many cells explicit dispatch is faster than implicit, and in brackets the geometric mean
     of implicit over explicit."""
@@ -105,6 +86,16 @@ def dispatches(*paths):
                     row.append(f"{sum(r > 1 for r in ratios)} of {len(ratios)} ({geometric_mean(ratios):.2f})")
                 rows.append(row)
     return table(["machine", "shaders", "n", *GROUPINGS], rows)
+
+
+def dispatches_by_set(path, n):
+    """After a grouping, set by set: the geometric mean of implicit over explicit dispatch."""
+    cells, n = Cells(Report(path).times), int(n)
+    rows = [[kind, shaders] + [f"{geometric_mean([t[f'{g}+implicit'] / t[f'{g}+explicit'] for t in found]):.2f}"
+                               for g in GROUPINGS]
+            for kind in ("index", "record") for shaders in cells.sets
+            for found in [[cells.rows[shaders, n, run][kind] for run in cells.runs]]]
+    return table(["shaders", "set", *GROUPINGS], rows)
 
 
 def unordered(path, n, kind="index"):

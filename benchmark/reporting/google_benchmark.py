@@ -49,6 +49,11 @@ class Report:
         return "\n\n".join(lines + [f"Error in {error}" for error in self.errors])
 
 
+def without_names(context):
+    """The context of a report without the name of the host and the way to the program."""
+    return {**context, "host_name": "", "executable": context["executable"].rsplit("/", 1)[-1]}
+
+
 def geometric_mean(values):
     return math.exp(sum(map(math.log, values)) / len(values))
 

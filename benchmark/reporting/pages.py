@@ -8,13 +8,16 @@
     <!-- plot: PLOT FILE... OPTION=VALUE... -->
     ![what is to be seen](plot.svg)
 
-A report that stands in the middle of a line has no line breaks around it.
+A report that stands in the middle of a line has no line breaks around it. Besides these and the examples that
+test/readme.py puts in, a page has no comments: what looks like one is a marker gone wrong.
 """
 import re
 import shlex
 
 REPORT = re.compile(r"(<!-- report: (.+?) -->)(\n?)(.*?)(<!-- end of report -->)", re.DOTALL)
 PLOT = re.compile(r"<!-- plot: (.+?) -->\n!\[[^\]]*\]\(([^)]+\.svg)\)")
+EXAMPLE = re.compile(r"<!-- example: \S+ -->")
+FIRST = re.compile(r"^[ \t]*(?:[-*] +)?<!-- report: [^\n]+?-->[^\n]", re.MULTILINE)  # HTML to Markdown, not text
 
 
 class Stale(ValueError):
@@ -52,19 +55,36 @@ class Pages:
             raise Stale(f"{words}: there is no {name}, but {', '.join(functions)}")
         try:
             return functions[name](*files, **options)
-        except (ArithmeticError, LookupError, StopIteration, TypeError, ValueError) as error:
+        except LookupError as error:
+            raise Stale(f"{words}: the raw data has no {error}") from error
+        except (ArithmeticError, AttributeError, StopIteration, TypeError, ValueError) as error:
             raise Stale(f"{words}: {type(error).__name__}: {error}") from error
 
     def wanted(self, page):
         """{path: text} of a page and its plots as they should be."""
         text = page.read_text(encoding="utf-8")
-        if text.count("<!-- report: ") != len(REPORT.findall(text)) or \
-                text.count("<!-- plot: ") != len(PLOT.findall(text)):
-            raise Stale(f"{page.name}: a marker without its end, or a plot without its picture")
+
+        def place(position):
+            return f"{page.name}:{text.count(chr(10), 0, position) + 1}"
+
+        def made(match, words, functions):
+            try:
+                return self.make(words, functions)
+            except Stale as error:
+                raise Stale(f"{place(match.start())}: {error}") from error
+
+        rest = text
+        for pattern in (REPORT, PLOT, EXAMPLE):
+            rest = pattern.sub(lambda m: re.sub(r"[^\n]", " ", m[0]), rest)
+        if "<!--" in rest:
+            raise Stale(f"{place(rest.index('<!--'))}: a marker that is none, one without its end, or a plot without "
+                        "its picture")
+        if first := FIRST.search(text):
+            raise Stale(f"{place(first.start())}: a report in the middle of a line begins it, which makes HTML of the line")
         self.count += len(REPORT.findall(text)) + len(PLOT.findall(text))
-        found = {page: REPORT.sub(lambda m: f"{m[1]}{m[3]}{self.make(m[2], self.views)}{m[3]}{m[5]}", text)}
-        for words, picture in PLOT.findall(text):
-            found[page.parent / picture] = self.make(words, self.plots)
+        found = {page: REPORT.sub(lambda m: f"{m[1]}{m[3]}{made(m, m[2], self.views)}{m[3]}{m[5]}", text)}
+        for match in PLOT.finditer(text):
+            found[page.parent / match[2]] = made(match, match[1], self.plots)
         return found
 
     def stale(self):

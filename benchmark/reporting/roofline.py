@@ -55,8 +55,8 @@ def chosen(path):
         raise KeyError(f"{path.name} has {len(tables)} tables of counters")
     names = ({"oracle": "oracle, 6 simple", "implicit": "implicit, 6 simple", "packed": "packed tiles, 6 simple",
               "shade": "window, 6 simple"}, {"oracle 8": "oracle, 11 moderate", "shade 8": "window, 11 moderate"})
-    return [(words, next(k for k in kernels_ if k.name == name))
-            for kernels_, wanted in zip(tables, names) for name, words in wanted.items()]
+    found = [{kernel.name: kernel for kernel in kernels_} for kernels_ in tables]
+    return [(words, by_name[name]) for by_name, wanted in zip(found, names) for name, words in wanted.items()]
 
 
 def roofs(path, grouping):

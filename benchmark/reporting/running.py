@@ -2,11 +2,10 @@
 """Runs the benchmarks of a build, and writes a page about them."""
 import json
 import os
-import pathlib
 import subprocess
 import sys
 
-from .google_benchmark import Report
+from .google_benchmark import Report, without_names
 from .pages import Pages
 from .views import PLOTS, VIEWS
 
@@ -22,8 +21,7 @@ def output_of(*words):
 def without_places(path):
     """Takes the name of the host and the way to the program out of a report."""
     report = json.loads(path.read_text(encoding="utf-8"))
-    report["context"]["host_name"] = ""
-    report["context"]["executable"] = pathlib.Path(report["context"]["executable"]).name
+    report["context"] = without_names(report["context"])
     path.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
 
 

@@ -8,12 +8,12 @@ import effects
 import ratios
 import registers
 
-from . import claims, compiling, roofline, scaling, several, speedups, summary
+from . import claims, compiling, hits, means, roofline, scaling, several, speedups, summary
 from .google_benchmark import Report
 
 
 def ratios_of(path, headings="0"):
-    """All that benchmark/ratios.py says of a report; `headings` is their level, 0 leaves them out."""
+    """All that benchmark/ratios.py says of a report; `headings` is the level of its titles, 0 for titles in the text."""
     return ratios.text(Report(path), int(headings))
 
 
@@ -38,10 +38,14 @@ VIEWS = {
     "compile-time": compiling.compile_time,
     "summary": summary.summary,
     "speedup": summary.speedup,
+    "means": means.means,
+    "span": means.span,
+    "apart": means.apart,
     "scenes": claims.scenes,
     "coherence": claims.coherence,
-    "efficiency": claims.efficiency,
+    "efficiency": hits.efficiency,
     "dispatches": claims.dispatches,
+    "dispatches-by-set": claims.dispatches_by_set,
     "unordered": claims.unordered,
     "local": claims.local,
     "scaling": claims.scaling,
@@ -53,4 +57,5 @@ PLOTS = {
     "speedups": speedups.plot,
     "scaling": scaling.plot,
     "roofline": roofline.plot,
+    "efficiency": hits.plot,
 }

@@ -12,9 +12,10 @@ def words_of_markdown(text):
     for start, end, image, words, _ in markdown.links(text):
         if image is not None:
             result[start:end] = ("" if image else f"[{words}]").ljust(end - start)
-    for tag in re.finditer(r"</?[a-z]+\d?(?: [^<>\n]*)?/?>", markdown.without_code(text)):
+    tags = re.finditer(r"</?[a-z]+\d?(?: [^<>\n]*)?/?>", markdown.without_code(text))
+    for tag in [*tags, *markdown.COMMENT.finditer(markdown.without_code(text, comments=True))]:
         result[tag.start():tag.end()] = " " * len(tag[0])
-    text = markdown.COMMENT.sub("", "".join(result))
+    text = "".join(result)
     text = re.sub(r"(?m)^ *(?:```|~~~).*$|^ *\d+\. |^\[[^\]]+\]: .*$", " ", text)
     return re.findall(r"\w+", html.unescape(text))
 

@@ -64,6 +64,21 @@ struct variants {
   }
 };
 
+namespace detail {
+
+/// Calls `run(table)` with what variant number `chosen` leaves of a table, or with the whole table
+/// where there is none of that number.
+template <class... Variants, class Table, class Function>
+void with_variant(variants<Variants...>, std::size_t chosen, Table const& shaders,
+                  Function const& run) {
+  std::size_t number = 0;
+  bool const ran =
+      ((chosen == number++ && (run(variant_traits<Variants>::table(shaders)), true)) || ...);
+  if (!ran) run(shaders);
+}
+
+}  // namespace detail
+
 /// A schedule for scenes that do not need all shaders of a table: runs `schedule` over the smallest
 /// of some variants that has all shaders that can occur, and over the whole table where none has;
 /// what launches one shader after another launches those that can occur.
@@ -77,12 +92,10 @@ struct variants {
 /// materials of its scene, and to keep true: a request that names another shader may be left alone.
 /// count_occurrences finds it for one wave.
 template <class Schedule, class Variants, std::size_t Shaders>
-struct specialized;
-template <class Schedule, class... Variants, std::size_t Shaders>
-struct specialized<Schedule, variants<Variants...>, Shaders> {
-  Schedule schedule;
-  variants<Variants...> sets;
-  std::bitset<Shaders> occurring;
+struct specialized {
+  Schedule schedule;               ///< what runs
+  Variants sets;                   ///< a variants<...>
+  std::bitset<Shaders> occurring;  ///< the shaders that can occur
 
   /// The number of the variant that runs; variants::count for the whole table.
   std::size_t variant() const { return sets.covering(occurring); }
@@ -91,16 +104,10 @@ struct specialized<Schedule, variants<Variants...>, Shaders> {
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<AllShaders...> const& shaders,
                   Workspace& scratch) const {
     static_assert(sizeof...(AllShaders) == Shaders, "occurring has a bit for each shader");
-    std::size_t const chosen = variant();
-    std::size_t number = 0;
-    auto const run = [&](auto const& table) {
+    detail::with_variant(sets, variant(), shaders, [&](auto const& table) {
       detail::run_schedule(detail::system_of<Policy>{}, schedule, exec, n, ids,
                            table.expecting(occurring), scratch);
-    };
-    bool const ran =
-        ((chosen == number++ && (run(detail::variant_traits<Variants>::table(shaders)), true)) ||
-         ...);
-    if (!ran) run(shaders);
+    });
   }
 };
 

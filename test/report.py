@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Whether benchmark/report.py sees what is wrong with a page or with raw data, and says what and where: every fault
+below is put into a copy of the documentation, and the check has to fail with the words beside it."""
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+root = pathlib.Path(__file__).resolve().parent.parent
+RAW = "docs/results/"
+
+# file, what is replaced by a regular expression, by what, and what the check says
+FAULTS = [
+    ("docs/paper.md", r"(\| 3 simple .*?)\d\.\d\d", r"\g<1>9.99", r"paper\.md: line \d+ is\n.*9\.99"),
+    ("docs/paper-h200.svg", r'cx="\d', 'cx="7', r"paper-h200\.svg: line \d+ is"),
+    ("docs/paper-h200.svg", None, None, r"paper-h200\.svg: there is no such file"),
+    ("README.md", r"(<!-- report: span .*?-->)\d", r"\g<1>7", r"README\.md: line \d+ is"),
+    ("docs/paper.md", "report: scenes", "report: scene", r"paper\.md:\d+: .*there is no scene, but .*scenes"),
+    ("docs/paper.md", "plot: speedups", "plot: speedup", r"paper\.md:\d+: .*there is no speedup, but"),
+    ("docs/paper.md", "<!-- report: scenes", "<!-- reports: scenes", r"paper\.md:\d+: a marker that is none"),
+    ("docs/paper.md", "<!-- report: scenes", "<!--report: scenes", r"paper\.md:\d+: a marker that is none"),
+    ("docs/paper.md", "<!-- end of report", "<!-- end of raport", r"paper\.md:\d+: a marker that is none"),
+    ("docs/paper.md", r"(<!-- plot: .*-->)", r"\g<1>\n", r"paper\.md:\d+: .*a plot without its picture"),
+    ("docs/paper.md", " kind=record", " sort=record", r"paper\.md:\d+: .*unexpected keyword argument 'sort'"),
+    ("README.md", r"at (<!-- report: span)", r"\g<1>", r"README\.md:\d+: .* begins it"),
+    (RAW + "h200-schedules.json", None, None, r"paper\.md:\d+: .*there is no raw data h200-schedules\.json"),
+    (RAW + "h200-schedules.json", '"real_time"', '"time"', r"md:\d+: .*h200-schedules\.json.*has no 'real_time'"),
+    (RAW + "h200-schedules.json", "local-bitonic", "bitonic", r"md:\d+: .*h200-schedules\.json.*no 'local-bitonic'"),
+    (RAW + "h200-schedules.json", r"\A", "x", r"md:\d+: .*h200-schedules\.json.*JSONDecodeError"),
+    (RAW + "h200-short-index.txt", "memory read, MB", "memory, MB", r"md:\d+: .*no 'memory read, MB'"),
+    (RAW + "h200-short-index.txt", "packed", "peaked", r"md:\d+: .*h200-short-index\.txt.*no 'packed'"),
+    (RAW + "h200-bounces-1.json", '"efficiency"', '"share"', r"md:\d+: .*h200-bounces-1\.json.*no 'efficiency'"),
+    (RAW + "compile-time-gcc.json", '"peak_kib"', '"kib"', r"md:\d+: .*compile-time-gcc\.json.*no 'peak_kib'"),
+]
+
+
+def check(folder):
+    """Whether the check passes, and what it says."""
+    done = subprocess.run([sys.executable, str(folder / "benchmark/report.py"), "--check"], capture_output=True,
+                          text=True, check=False)
+    return done.returncode == 0, done.stdout + done.stderr
+
+
+def main():
+    failed = []
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        shutil.copy(root / "README.md", folder)
+        for part in ("benchmark", "docs"):
+            shutil.copytree(root / part, folder / part, ignore=shutil.ignore_patterns("__pycache__"))
+        passes, words = check(folder)
+        if not passes:
+            sys.exit(f"without any fault, the check says\n{words}")
+        for file, old, new, expected in FAULTS:
+            path = folder / file
+            text = path.read_text(encoding="utf-8")
+            if old is None:
+                path.unlink()
+            else:
+                changed, count = re.subn(old, new, text)
+                if count == 0 or changed == text:
+                    failed.append(f"{file} has no {old} to replace")
+                path.write_text(changed, encoding="utf-8")
+            passes, words = check(folder)
+            if passes or not re.search(expected, words, re.DOTALL) or "Traceback" in words:
+                failed.append(f"{file}, {old} replaced by {new}: expected {expected}, and the check says\n{words}")
+            path.write_text(text, encoding="utf-8")
+    if failed:
+        sys.exit("\n".join(failed))
+    print(f"{len(FAULTS)} faults are found and named")
+
+
+if __name__ == "__main__":
+    main()
