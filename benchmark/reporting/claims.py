@@ -72,11 +72,12 @@ def coherence(path, requests="16384"):
 
 
 def hits(path, schedule="implicit"):
-    """The scene of a report of the path tracer, and its heterogeneous efficiency hit by hit."""
+    """(scene, its heterogeneous efficiency hit by hit) of a report of the path tracer, or of several in one file."""
     with open(path, encoding="utf-8") as file:
         report = json.load(file)
-    bounces = next(run["bounces"] for run in report["schedules"] if run["schedule"] == schedule)
-    return report["scene"].split(".")[0], [bounce["efficiency"] for bounce in bounces[:len(EFFICIENCY)]]
+    for one in report.get("reports", [report]):
+        bounces = next(run["bounces"] for run in one["schedules"] if run["schedule"] == schedule)
+        yield one["scene"].split(".")[0], [bounce["efficiency"] for bounce in bounces[:len(EFFICIENCY)]]
 
 
 def efficiency(*paths):
@@ -84,8 +85,8 @@ def efficiency(*paths):
     rows = [["the paper"] + [f"{share} %" for share in EFFICIENCY]]
     for path in paths:
         for schedule, words in (("implicit", "as they come"), ("bucket+explicit", "grouped")):
-            scene, shares = hits(path, schedule)
-            rows.append([f"`{scene}`, {words}"] + [f"{100 * share:.0f} %" for share in shares])
+            rows += [[f"`{scene}`, {words}"] + [f"{100 * share:.0f} %" for share in shares]
+                     for scene, shares in hits(path, schedule)]
     return table([""] + [f"hit {k + 1}" for k in range(len(EFFICIENCY))], rows)
 
 

@@ -8,7 +8,7 @@ import effects
 import ratios
 import registers
 
-from . import claims, compiling, roofline, scaling, several, speedups, summary
+from . import claims, compiling, roofline, scaling, scenes, several, speedups, summary
 from .google_benchmark import Report
 
 
@@ -39,6 +39,9 @@ VIEWS = {
     "scenes": claims.scenes,
     "coherence": claims.coherence,
     "efficiency": claims.efficiency,
+    "scene-shaders": scenes.shaders,
+    "scene-efficiency": scenes.efficiency,
+    "scene-times": scenes.times,
     "dispatches": claims.dispatches,
     "unordered": claims.unordered,
     "local": claims.local,
@@ -50,5 +53,6 @@ PLOTS = {
     "accuracy": lambda *paths: accuracy_report.plot(paths),
     "speedups": speedups.plot,
     "scaling": scaling.plot,
+    "scene-efficiency": scenes.plot,
     "roofline": roofline.plot,
 }
