@@ -26,7 +26,7 @@ from reporting.running import commit_of
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PICTURED = ("implicit", "local-bitonic")
 COUNTED = {"width": 1280, "height": 720, "spp": 1, "max-depth": len(EFFICIENCY)}  # one wave, a path for each pixel
-TIMED = {"width": 640, "height": 360, "spp": 1, "max-depth": 8}
+TIMED = {"width": 480, "height": 270, "spp": 1, "max-depth": 8}
 SHOWN = {"width": 256, "height": 144, "spp": 256, "max-depth": 16}
 STEP = 4
 
