@@ -11,17 +11,18 @@ LOOKS = (("s5", "square"), ("s0", "disc"), ("s1", "diamond"), ("s2", "disc"), ("
 
 
 def bounces_of(path, schedule):
-    """The scene of a report of the path tracer, and its first bounces by a schedule."""
+    """(scene, its first bounces by a schedule) of a report of the path tracer, or of several in one file."""
     with open(path, encoding="utf-8") as file:
         report = json.load(file)
-    bounces = {run["schedule"]: run["bounces"] for run in report["schedules"]}[schedule]
-    return report["scene"].split(".")[0], bounces[:len(EFFICIENCY)]
+    for one in report.get("reports", [report]):
+        bounces = {run["schedule"]: run["bounces"] for run in one["schedules"]}[schedule]
+        yield one["scene"].split(".")[0], bounces[:len(EFFICIENCY)]
 
 
 def hits(path, schedule="implicit"):
-    """The scene of a report of the path tracer, and its heterogeneous efficiency hit by hit."""
-    scene, bounces = bounces_of(path, schedule)
-    return scene, [bounce["efficiency"] for bounce in bounces]
+    """(scene, its heterogeneous efficiency hit by hit) of the same."""
+    for scene, bounces in bounces_of(path, schedule):
+        yield scene, [bounce["efficiency"] for bounce in bounces]
 
 
 def efficiency(*paths):
@@ -29,18 +30,18 @@ def efficiency(*paths):
     rows = [["the paper"] + [f"{share} %" for share in EFFICIENCY]]
     for path in paths:
         for schedule, words in (("implicit", "as they come"), ("bucket+explicit", "grouped")):
-            scene, shares = hits(path, schedule)
-            rows.append([f"`{scene}`, {words}"] + [f"{100 * share:.0f} %" for share in shares])
-        scene, bounces = bounces_of(path, "implicit")
-        rows.append([f"`{scene}`, paths left"] +
-                    [f"{100 * bounce['requests'] / bounces[0]['requests']:.0f} %" for bounce in bounces])
+            rows += [[f"`{scene}`, {words}"] + [f"{100 * share:.0f} %" for share in shares]
+                     for scene, shares in hits(path, schedule)]
+        rows += [[f"`{scene}`, paths left"] +
+                 [f"{100 * bounce['requests'] / bounces[0]['requests']:.0f} %" for bounce in bounces]
+                 for scene, bounces in bounces_of(path, "implicit")]
     return table([""] + [f"hit {k + 1}" for k in range(len(EFFICIENCY))], rows)
 
 
 def plot(*paths):
     """Requests as they come."""
     curves = [("the paper", list(EFFICIENCY))]
-    curves += [(scene, [100 * share for share in shares]) for scene, shares in map(hits, paths)]
+    curves += [(scene, [100 * share for share in shares]) for path in paths for scene, shares in hits(path)]
     d = Drawing(WIDTH, BOTTOM + 44, "Heterogeneous efficiency of the first hits, in the paper and in scenes of ours")
 
     def x(hit):

@@ -16,7 +16,7 @@ import shlex
 
 REPORT = re.compile(r"(<!-- report: (.+?) -->)(\n?)(.*?)(<!-- end of report -->)", re.DOTALL)
 PLOT = re.compile(r"<!-- plot: (.+?) -->\n!\[[^\]]*\]\(([^)]+\.svg)\)")
-EXAMPLE = re.compile(r"<!-- example: \S+ -->")
+EXAMPLE = re.compile(r"<!-- (?:example|diff): [^\n]+ -->")  # test/readme.py checks those
 FIRST = re.compile(r"^[ \t]*(?:[-*] +)?<!-- report: [^\n]+?-->[^\n]", re.MULTILINE)  # HTML to Markdown, not text
 
 

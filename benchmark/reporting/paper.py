@@ -31,6 +31,10 @@ class Scene:
     def pays(self):
         return self.unit != "slower"
 
+    def file(self):
+        """The name of its files in examples/scenes/paper and docs/scenes, without an ending."""
+        return self.name.replace(" + ", " ").replace(" ", "-")
+
 
 SCENES = [Scene("3 simple", 5, 19, "slower"), Scene("6 simple", 14, 38, "faster"),
           Scene("2 simple + 2 procedural", 2.4, 2.7, "times"), Scene("3 simple + 2 procedural", 3.2, 3.5, "times"),

@@ -18,6 +18,12 @@ def output_of(*words):
         return "unknown"
 
 
+def commit_of(root):
+    """The commit of a checkout, and whether its files are others."""
+    changed = output_of("git", "-C", str(root), "status", "--porcelain", "--untracked-files=no") != "unknown"
+    return output_of("git", "-C", str(root), "rev-parse", "--short", "HEAD") + "-changed" * changed
+
+
 def without_places(path):
     """Takes the name of the host and the way to the program out of a report."""
     report = json.loads(path.read_text(encoding="utf-8"))
@@ -27,10 +33,7 @@ def without_places(path):
 
 def measure(program, out, root, arguments):
     """Runs one program; what it measured on is in the context of its report."""
-    commit = output_of("git", "-C", str(root), "rev-parse", "--short", "HEAD")
-    if output_of("git", "-C", str(root), "status", "--porcelain", "--untracked-files=no") != "unknown":
-        commit += "-changed"
-    context = {"commit": commit}
+    context = {"commit": commit_of(root)}
     driver = output_of("nvidia-smi", "--query-gpu=driver_version", "--format=csv,noheader")
     if driver != "unknown":
         context["driver"] = driver.splitlines()[0]

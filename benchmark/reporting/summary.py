@@ -68,7 +68,7 @@ def balance(counters, grouping):
 
 def efficiencies(*paths):
     """The least and the most of each hit, and in how many of all they are the paper's within ten points."""
-    found = [hits(path)[1] for path in paths]
+    found = [shares for path in paths for _, shares in hits(path)]
     words = ", ".join(f"{100 * min(shares):.0f} to {100 * max(shares):.0f}" for shares in zip(*found)) + " %"
     return words, verdict([abs(100 * share - paper) <= 10 for shares in found
                            for share, paper in zip(shares, EFFICIENCY)])

@@ -8,7 +8,7 @@ import effects
 import ratios
 import registers
 
-from . import claims, compiling, hits, means, roofline, scaling, several, speedups, summary
+from . import claims, compiling, hits, means, roofline, scaling, scenes, several, speedups, summary
 from .google_benchmark import Report
 
 
@@ -44,6 +44,9 @@ VIEWS = {
     "scenes": claims.scenes,
     "coherence": claims.coherence,
     "efficiency": hits.efficiency,
+    "scene-shaders": scenes.shaders,
+    "scene-efficiency": scenes.efficiency,
+    "scene-times": scenes.times,
     "dispatches": claims.dispatches,
     "dispatches-by-set": claims.dispatches_by_set,
     "unordered": claims.unordered,
@@ -56,6 +59,7 @@ PLOTS = {
     "accuracy": lambda *paths: accuracy_report.plot(paths),
     "speedups": speedups.plot,
     "scaling": scaling.plot,
+    "scene-efficiency": scenes.plot,
     "roofline": roofline.plot,
     "efficiency": hits.plot,
 }

@@ -27,7 +27,7 @@ struct render_settings {
   std::size_t variant = ~std::size_t{0};
   /// The shaders that are launched, in schedules that launch one after another.
   std::bitset<shader_count> expected = std::bitset<shader_count>().set();
-  bool statistics = false;  ///< fill bounce::efficiency and bounce::group_efficiency
+  bool statistics = false;  ///< fill all of a bounce
 };
 
 /// What one bounce took, summed over all waves of the image.
@@ -39,6 +39,7 @@ struct bounce {
   double efficiency = 0;       ///< heterogeneous efficiency of the first wave in execution order
   std::vector<float>
       pixel_efficiency;  ///< per pixel of the first wave: its group's; NaN: no request
+  std::vector<std::uint64_t> shader_requests;  ///< of each shader, in the first wave
 };
 
 struct render_result {

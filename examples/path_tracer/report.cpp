@@ -15,6 +15,15 @@ namespace {
 
 constexpr std::size_t bounces_in_table = 6;
 
+/// Requests by the names of the shaders that have any.
+nlohmann::ordered_json requests_by_shader(bounce const& b) {
+  auto const names = shader_names();
+  auto result = nlohmann::ordered_json::object();
+  for (std::size_t k = 0; k < b.shader_requests.size(); ++k)
+    if (b.shader_requests[k] > 0) result[std::string(names.at(k))] = b.shader_requests[k];
+  return result;
+}
+
 double sum(std::vector<bounce> const& bounces, double bounce::*member) {
   double total = 0;
   for (bounce const& b : bounces) total += b.*member;
@@ -78,7 +87,8 @@ std::string json_report(options const& o, std::size_t triangle_count,
                          {"group_ms", b.group_ms},
                          {"shade_ms", b.shade_ms},
                          {"total_ms", b.total_ms},
-                         {"efficiency", b.efficiency}});
+                         {"efficiency", b.efficiency},
+                         {"first_wave_by_shader", requests_by_shader(b)}});
     schedules.push_back({{"schedule", r.schedule},
                          {"seconds", r.result.seconds},
                          {"rays", r.result.rays},

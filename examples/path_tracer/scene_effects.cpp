@@ -189,6 +189,13 @@ std::bitset<shader_count> shaders_of(effect_bits effects) {
   return result.set(static_cast<std::size_t>(miss));
 }
 
+std::vector<std::string_view> shader_names() {
+  auto names = effect_names();
+  names.resize(shader_count);
+  names.back() = "miss";
+  return names;
+}
+
 std::size_t variant_for(effect_bits effects) {
   return decltype(variants_of(declared_sets{}))::covering(effects);
 }
@@ -213,9 +220,13 @@ std::string explain(scene const& s, std::size_t variant) {
     std::string const name = decltype(e)::name;
     if (!by.empty()) result += "  " + name + std::string(width + 2 - name.size(), ' ') + by + "\n";
   });
+  effect_bits const called = called_for(s);
+  effect_bits const shaders = called & effect_bits((1u << (shader_count - 1)) - 1);
+  result += "Its shaders: " + std::to_string(shaders.count()) + " (" + join_names(shaders) +
+            "), and that of rays which leave it\n";
   effect_bits const compiled = effects_of_variant(variant);
   result += "It runs code for " + (compiled.all() ? "all effects" : join_names(compiled)) + "\n";
-  if (effect_bits const others = compiled & ~called_for(s); others.any())
+  if (effect_bits const others = compiled & ~called; others.any())
     result += "... of which it does not call for " + join_names(others) + "\n";
   if (!compiled.all()) result += "Left out: " + join_names(~compiled) + "\n";
   return result;

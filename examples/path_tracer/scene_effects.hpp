@@ -34,13 +34,16 @@ effect_bits called_for(scene const& s);
 /// Their shaders, and that of rays which leave the scene.
 std::bitset<shader_count> shaders_of(effect_bits effects);
 
+/// The names of all shaders, in the order of the table: those of their effects, then `miss`.
+std::vector<std::string_view> shader_names();
+
 /// The declared set of effects that covers these with the fewest, by its number; that of
 /// declared_sets, of which there is none, for all effects.
 std::size_t variant_for(effect_bits effects);
 effect_bits effects_of_variant(std::size_t variant);
 
-/// Which effects the scene calls for and by what, which variant was chosen, and what it leaves out:
-/// lines of text.
+/// Which effects the scene calls for and by what, the shaders among them, which variant was chosen,
+/// and what it leaves out: lines of text.
 std::string explain(scene const& s, std::size_t variant);
 
 }  // namespace path_tracer

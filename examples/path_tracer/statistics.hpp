@@ -61,9 +61,9 @@ std::vector<deferred_shade::request_index> execution_order(Schedule const& sched
   return order;
 }
 
-/// Fills the efficiencies of `b` from one wave, whose ids are given in host memory: groups of 32
-/// lanes, all shaders at one cost. A pixel with several samples in the wave shows the group of the
-/// first.
+/// Fills the efficiencies and the requests by shader of `b` from one wave, whose ids are given in
+/// host memory: groups of 32 lanes, all shaders at one cost. A pixel with several samples in the
+/// wave shows the group of the first.
 template <class Schedule>
 void measure_efficiency(Schedule const& schedule, std::vector<std::uint8_t> const& wave_ids,
                         basic_wave const& wave, bounce& b) {
@@ -71,6 +71,10 @@ void measure_efficiency(Schedule const& schedule, std::vector<std::uint8_t> cons
       execution_order(schedule, static_cast<std::uint32_t>(wave_ids.size()), wave_ids.data());
   std::vector<std::uint8_t> ids(order.size());
   std::transform(order.begin(), order.end(), ids.begin(), [&](auto i) { return wave_ids[i]; });
+  b.shader_requests =
+      deferred_shade::count_occurrences(thrust::cpp::par, order.size(), ids.data(), shader_count)
+          .requests;
+  b.shader_requests.resize(shader_count);  // without the paths that have ended
   std::vector<double> const costs(shader_count, 1.0);
   deferred_shade::efficiency_model const model{costs.data(), shader_count};
   auto const count = static_cast<deferred_shade::request_index>(order.size());

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Writes the scenes beside this file; with --check, only compares them.
 
-box.gltf, gallery.gltf, and effects/: one small scene for each effect of the path tracer.
+box.gltf, gallery.gltf; effects/: one small scene for each effect of the path tracer; paper/: five with as many
+shaders as those of the paper.
 """
 import argparse
 import math
@@ -11,6 +12,8 @@ import sys
 
 from effect_scenes import effect_scenes
 from gltf_writer import Scene, about_y, as_float, bumps, checkers, cube, quad, sphere
+from paper_scenes import paper_scenes
+from random_numbers import random_numbers
 
 
 def box():
@@ -81,13 +84,7 @@ def gallery():
     scene.place(square, "cool panel", scale=[2.0, 1.0, 4.0], translation=[4.0, 4.6, -1.2])
     scene.point_light([0.5, 3.2, 5.0], [1.0, 0.9, 0.75], 14.0)
 
-    state = 12345  # of a linear congruential generator, Numerical Recipes' constants
-
-    def random(low, high):
-        nonlocal state
-        state = (state * 1664525 + 1013904223) % 2**32
-        return low + (high - low) * (state >> 8) / 2**24
-
+    random = random_numbers(12345)
     columns, rows, pitch = 20, 10, 0.62
     for row in range(rows):
         for column in range(columns):
@@ -110,6 +107,7 @@ def main():
     folder = pathlib.Path(__file__).resolve().parent
     files = {"box.gltf": box().text().encode(), "gallery.gltf": gallery().text().encode()}
     files.update({f"effects/{name}": data for name, data in effect_scenes().items()})
+    files.update({f"paper/{name}": data for name, data in paper_scenes().items()})
     different = []
     for name, data in files.items():
         path = folder / name

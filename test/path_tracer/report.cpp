@@ -23,7 +23,8 @@ run example(std::string const& schedule) {
   r.result.rays = 1234;
   r.result.discarded_samples = 2;
   float const nan = std::numeric_limits<float>::quiet_NaN();
-  r.result.bounces = {{100, 1.25, 10, 11.25, 0.98, {1, nan}}, {50, 0.75, 5, 5.75, 0.56, {0, 0.5f}}};
+  r.result.bounces = {{100, 1.25, 10, 11.25, 0.98, {1, nan}, {70, 30}},
+                      {50, 0.75, 5, 5.75, 0.56, {0, 0.5f}, {50}}};
   return r;
 }
 
@@ -94,6 +95,7 @@ TEST_CASE("the JSON report holds what was asked for and what was measured") {
   CHECK(second["bounces"][1]["requests"] == 50);
   CHECK(second["bounces"][0]["group_ms"] == 1.25);
   CHECK(second["bounces"][0]["efficiency"] == 0.98);
+  CHECK(second["bounces"][0]["first_wave_by_shader"] == json{{"emitters", 70}, {"marble", 30}});
 }
 
 TEST_CASE("the colours of a heat map rise evenly in lightness") {

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The scenes with as many shaders as the paper's: what benchmark/scenes.py has counted and timed."""
+import json
+import statistics
+
+from .hits import hits
+from .markdown import table
+from .paper import EFFICIENCY, SCENES
+from .svg import Drawing, apart
+
+ORDERS = {"implicit": "as they come", "local-bitonic": "sorted in blocks of 256", "bucket+explicit": "grouped"}
+PROCEDURAL = ("marble", "wood")
+WIDTH, HEIGHT, LEFT, RIGHT, TOP = 440, 330, 52, 262, 44
+
+
+def read(path):
+    with open(path, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def bounces_of(report, schedule):
+    return next(run["bounces"] for run in report["schedules"] if run["schedule"] == schedule)
+
+
+def shaders(path):
+    """Which shaders each scene runs, and which share of the requests is of each."""
+    rows = []
+    for report in read(path)["reports"]:
+        total = {}
+        for bounce in bounces_of(report, "implicit"):
+            for name, count in bounce["first_wave_by_shader"].items():
+                total[name] = total.get(name, 0) + count
+        shares = sorted(total.items(), key=lambda item: (item[0] in PROCEDURAL, -item[1]))
+        every = sum(total.values())
+        rows.append([report["scene"], len(total), ", ".join(
+            f"{'the sky' if name == 'miss' else name} {100 * count / every:.0f} %" for name, count in shares)])
+    return table(["scene", "shaders that run", "their shares of the requests of four hits"], rows)
+
+
+def efficiency(path):
+    """Hit by hit, as requests come and in other orders, and how many of the paths are left."""
+    rows = [["the paper", ""] + [f"{share} %" for share in EFFICIENCY]]
+    shares = {schedule: dict(hits(path, schedule)) for schedule in ORDERS}
+    for report in read(path)["reports"]:
+        for schedule, words in ORDERS.items():
+            rows.append([report["scene"] if schedule == "implicit" else "", words] +
+                        [f"{100 * share:.0f} %" for share in shares[schedule][report["scene"]]])
+        paths = report["settings"]["width"] * report["settings"]["height"] * report["settings"]["spp"]
+        rows.append(["", "*paths that are left*"] +
+                    [f"*{100 * b['requests'] / paths:.0f} %*" for b in bounces_of(report, "implicit")[:len(EFFICIENCY)]])
+    return table(["scene", "requests"] + [f"hit {k + 1}" for k in range(len(EFFICIENCY))], rows)
+
+
+def times(path):
+    """Shading with grouping, every schedule, medians; and what the best gains over unsorted implicit serialisation."""
+    result = read(path)
+    found, pictures = {}, {}
+    for report in result["reports"]:
+        for run in report["schedules"]:
+            key = report["scene"], run["schedule"]
+            found.setdefault(key, []).append(sum(b["total_ms"] for b in run["bounces"]))
+            pictures.setdefault(key, []).append(1e3 * run["seconds"])
+    middle = {key: statistics.median(values) for key, values in found.items()}
+    spread = {key: (max(values) - min(values)) / middle[key] for key, values in found.items()}
+    scenes, names = (list(dict.fromkeys(key[k] for key in found)) for k in (0, 1))
+    rows = [[f"`{name}`"] + [f"{middle[s, name]:.0f} ± {50 * spread[s, name]:.0f} %" for s in scenes] for name in names]
+    best = [min(names, key=lambda name, s=s: middle[s, name]) for s in scenes]
+    rows.append(["*fastest*"] + [f"`{name}`" for name in best])
+    rows.append(["*as fast as `implicit`*"] + [f"{middle[s, 'implicit'] / middle[s, name]:.2f} times"
+                                               for s, name in zip(scenes, best)])
+    rows.append(["*the same of the paper*"] + [scene.words() for scene in SCENES])
+    rows.append(["*of the picture's time*"] + [
+        f"{100 * middle[s, 'implicit'] / statistics.median(pictures[s, 'implicit']):.0f} %" for s in scenes])
+    settings, runs = result["reports"][0]["settings"], len(next(iter(found.values())))
+    return "\n\n".join([
+        ", ".join([result["machine"], f"commit {result['commit']}", f"{settings['width']} x {settings['height']}"] +
+                  [f"{key} {settings[key]}" for key in ("backend", "spp", "max_depth")] + [f"{runs} runs"]),
+        table(["schedule"] + scenes, rows)])
+
+
+def plot(path):
+    """The efficiency of requests as they come, hit by hit, of each scene and of the paper."""
+    curves = {scene: [100 * share for share in shares] for scene, shares in hits(path)}
+    d = Drawing(WIDTH, HEIGHT, "Heterogeneous efficiency of requests as they come, hit by hit, of five scenes")
+    bottom = HEIGHT - 48
+
+    def x(hit):
+        return LEFT + 10 + (RIGHT - LEFT - 20) * hit / (len(EFFICIENCY) - 1)
+
+    def y(share):
+        return bottom + (TOP - bottom) * share / 100
+    d.text(8, 20, "Requests as they come, warps of 32", "strong")
+    for share in range(0, 101, 20):
+        d.line([(LEFT, y(share)), (RIGHT, y(share))], "grid")
+        d.text(LEFT - 6, y(share) + 4, f"{share} %", "small soft", "end")
+    for hit in range(len(EFFICIENCY)):
+        d.text(x(hit), bottom + 17, f"{hit + 1}", "small soft", "middle")
+    d.line([(LEFT, TOP), (LEFT, bottom), (RIGHT, bottom)], "axis")
+    d.text((LEFT + RIGHT) / 2, bottom + 36, "hit", "", "middle")
+    curves["the paper"] = EFFICIENCY
+    d.line([(x(hit), y(share)) for hit, share in enumerate(EFFICIENCY)], "guide")
+    for k, (name, shares) in enumerate(curves.items()):
+        if name != "the paper":
+            d.line([(x(hit), y(share)) for hit, share in enumerate(shares)], f"line s{k}")
+        for hit, share in enumerate(shares):
+            d.mark("diamond" if name == "the paper" else "disc", x(hit), y(share), f"s{k}",
+                   f"{name}, hit {hit + 1}: {share:.0f} %")
+    for place, name in zip(apart([y(shares[-1]) for shares in curves.values()], 15), curves):
+        d.text(RIGHT + 4, place + 4, name, "small")
+    return d.render()
