@@ -4,6 +4,7 @@
 #include <deferred_shade/dispatch/explicit.hpp>
 #include <deferred_shade/dispatch/implicit.hpp>
 #include <deferred_shade/math.hpp>
+#include <deferred_shade/observed.hpp>
 #include <deferred_shade/records.hpp>
 #include <deferred_shade/schedule/bucket_then_dispatch.hpp>
 #include <deferred_shade/schedule/compact_then_dispatch.hpp>

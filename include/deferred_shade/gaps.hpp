@@ -12,6 +12,9 @@
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/system.hpp>
 #include <deferred_shade/types.hpp>
+#ifdef __CUDACC__
+#include <deferred_shade/cuda/renumbered.hpp>
+#endif
 
 namespace deferred_shade::detail {
 
@@ -78,8 +81,9 @@ void run_schedule(System, Schedule const& schedule, Policy const& exec, Count n,
   if constexpr (closes_gaps) {
     using dense_ids =
         thrust::transform_iterator<place_among<present.bits>, Ids, shader_id, shader_id>;
+    auto&& seen = renumbered(scratch, present.ids.data());
     schedule(exec, n, dense_ids(ids, {}),
-             without_gaps(shaders, std::make_index_sequence<present.count>()), scratch);
+             without_gaps(shaders, std::make_index_sequence<present.count>()), seen);
   } else {
     schedule(exec, n, ids, shaders, scratch);
   }

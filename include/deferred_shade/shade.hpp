@@ -52,8 +52,8 @@ auto wave_size(System, Count n) {
 /// - `ids`: a random-access iterator over the shader id of each request, an integer or enumeration
 ///   of 8 to 32 bits. It is read more than once. An id that the table does not have leaves its
 ///   request alone.
-/// - `scratch`: memory to work in, one workspace per concurrent call. Nothing is allocated once it
-///   has seen, or reserved for, as many requests and shaders.
+/// - `scratch`: memory to work in, a workspace or an `observed` one, one per concurrent call.
+///   Nothing is allocated once it has seen, or reserved for, as many requests and shaders.
 ///
 /// Within one shader, requests are started in the order of their indices wherever one worker runs
 /// them. The library does no arithmetic on the renderer's data: what a shader writes for its own
@@ -64,9 +64,9 @@ auto wave_size(System, Count n) {
 /// `n` exceeds `max_requests` or, on a CPU, a device_count its maximum, and what the workspace's
 /// allocator throws. No shader has run then, and `scratch` stays usable. Throws
 /// cuda_error where CUDA refuses a launch.
-template <class Policy, class Schedule, class Count, class Ids, class... Shaders, class Allocator>
+template <class Policy, class Schedule, class Count, class Ids, class... Shaders, class Workspace>
 void shade(Policy const& exec, Schedule const& schedule, Count n, Ids ids,
-           shader_table<Shaders...> const& shaders, workspace<Allocator>& scratch) {
+           shader_table<Shaders...> const& shaders, Workspace& scratch) {
   using system = detail::system_of<Policy>;
   static_assert(
       !std::is_void_v<system>,

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <iterator>
 #include <limits>
+#include <optional>
 #include <type_traits>
 
 #include <deferred_shade/config.hpp>
@@ -46,6 +47,14 @@ struct grouping {
   request_index const* permutation;
   request_index const* offsets;
   std::size_t maximum = max_requests;
+};
+
+/// A part of what a schedule does, as an observer is told of it: see `observed`. A schedule outside
+/// the library may have parts by other names.
+struct phase {
+  char const* name;                       ///< "group", "dispatch" or, within it, "shader"
+  std::optional<shader_id> shader{};      ///< where the name is "shader": its id
+  std::optional<std::size_t> requests{};  ///< that it runs on, where the host knows how many
 };
 
 namespace detail {

@@ -12,6 +12,7 @@
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/system.hpp>
 #include <deferred_shade/types.hpp>
+#include <deferred_shade/workspace.hpp>
 #ifdef __CUDACC__
 #include <deferred_shade/dispatch/cuda/explicit.hpp>
 #endif
@@ -19,12 +20,13 @@
 namespace deferred_shade {
 namespace detail {
 
-template <class Policy, class Ids, class... Shaders>
+template <class Policy, class Ids, class... Shaders, class Workspace>
 void run_explicit(host_system, Policy const& exec, request_index n, Ids ids,
-                  shader_table<Shaders...> const& shaders) {
+                  shader_table<Shaders...> const& shaders, Workspace const& scratch) {
   auto const expected = shaders.expected();
   shaders.for_each([&](auto id, auto const& shader) {
     if (!expected[id]) return;
+    [[maybe_unused]] auto const running = scratch.begin_phase({"shader", id});
     thrust::for_each_n(exec, thrust::counting_iterator<request_index>(0), std::size_t{n},
                        [ids, &shader](request_index i) {
                          if (shader_of(ids, i, sizeof...(Shaders)) == decltype(id)::value) {
@@ -34,15 +36,16 @@ void run_explicit(host_system, Policy const& exec, request_index n, Ids ids,
   });
 }
 
-template <class Policy, class... Shaders>
+template <class Policy, class... Shaders, class Workspace>
 void run_explicit(host_system, Policy const& exec, grouping group,
-                  shader_table<Shaders...> const& shaders) {
+                  shader_table<Shaders...> const& shaders, Workspace const& scratch) {
   auto const expected = shaders.expected();
   shaders.for_each([&](auto id, auto const& shader) {
     if (!expected[id]) return;
     request_index const begin = group.offsets[id];
     request_index const end = group.offsets[id + 1];
     if (begin == end) return;
+    [[maybe_unused]] auto const running = scratch.begin_phase({"shader", id, end - begin});
     using type = std::decay_t<decltype(shader)>;
     if constexpr (is_packable<type>) {
       std::size_t const size = end - begin;
@@ -84,17 +87,20 @@ struct explicit_serialization {
   /// The schedule: every launch visits all requests and masks those of other shaders.
   template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
-                  Workspace&) const {
-    detail::run_explicit(detail::system_of<Policy>{}, exec, n, ids, shaders);
+                  Workspace& scratch) const {
+    [[maybe_unused]] auto const dispatched = scratch.begin_phase({"dispatch"});
+    detail::run_explicit(detail::system_of<Policy>{}, exec, n, ids, shaders, scratch);
   }
 
   /// The dispatch: every launch visits the segment of its shader. On CPUs, an empty one is not
   /// launched; on CUDA the length is read by the launch itself, so that the host need not wait:
-  /// shader_table::expecting spares the launches of shaders that a scene does not have.
-  template <class Policy, class... Shaders>
-  void operator()(Policy const& exec, grouping group,
-                  shader_table<Shaders...> const& shaders) const {
-    detail::run_explicit(detail::system_of<Policy>{}, exec, group, shaders);
+  /// shader_table::expecting spares the launches of shaders that a scene does not have. `scratch`
+  /// is there for its observer.
+  template <class Policy, class... Shaders, class Workspace = workspace<>>
+  void operator()(Policy const& exec, grouping group, shader_table<Shaders...> const& shaders,
+                  Workspace const& scratch = {}) const {
+    [[maybe_unused]] auto const dispatched = scratch.begin_phase({"dispatch"});
+    detail::run_explicit(detail::system_of<Policy>{}, exec, group, shaders, scratch);
   }
 };
 

@@ -10,6 +10,7 @@
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/system.hpp>
 #include <deferred_shade/types.hpp>
+#include <deferred_shade/workspace.hpp>
 #ifdef __CUDACC__
 #include <deferred_shade/dispatch/cuda/implicit.hpp>
 #endif
@@ -53,14 +54,16 @@ struct implicit_serialization {
   /// The schedule: requests as they come.
   template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
-                  Workspace&) const {
+                  Workspace& scratch) const {
+    [[maybe_unused]] auto const dispatched = scratch.begin_phase({"dispatch"});
     detail::run_implicit(detail::system_of<Policy>{}, exec, n, ids, shaders);
   }
 
-  /// The dispatch: requests as `group` orders them.
-  template <class Policy, class... Shaders>
-  void operator()(Policy const& exec, grouping group,
-                  shader_table<Shaders...> const& shaders) const {
+  /// The dispatch: requests as `group` orders them. `scratch` is there for its observer.
+  template <class Policy, class... Shaders, class Workspace = workspace<>>
+  void operator()(Policy const& exec, grouping group, shader_table<Shaders...> const& shaders,
+                  Workspace const& scratch = {}) const {
+    [[maybe_unused]] auto const dispatched = scratch.begin_phase({"dispatch"});
     detail::run_implicit(detail::system_of<Policy>{}, exec, group, shaders);
   }
 };

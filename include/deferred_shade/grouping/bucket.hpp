@@ -66,8 +66,9 @@ grouping bucket_grouping(host_system, Policy const& exec, request_index n, Ids i
 ///
 /// `ids` is a random-access iterator of `n` ids; `n` is a request_index, or on CUDA a device_count.
 /// The result lives in `scratch` until its next use.
-template <shader_id Shaders, class Policy, class Count, class Ids, class Allocator>
-grouping group_by_bucket(Policy const& exec, Count n, Ids ids, workspace<Allocator>& scratch) {
+template <shader_id Shaders, class Policy, class Count, class Ids, class Workspace>
+grouping group_by_bucket(Policy const& exec, Count n, Ids ids, Workspace& scratch) {
+  [[maybe_unused]] auto const grouped = scratch.begin_phase({"group"});
   return detail::bucket_grouping<Shaders>(detail::system_of<Policy>{}, exec, n, ids, scratch);
 }
 

@@ -65,9 +65,10 @@ grouping compact_grouping(host_system, Policy const& exec, request_index n, Ids 
 /// `ids` is a random-access iterator of `n` ids; `n` is a request_index, or on CUDA a device_count.
 /// The result lives in `scratch` until its next use. Only the shaders that are `wanted` are
 /// compacted, the segments of others are empty.
-template <shader_id Shaders, class Policy, class Count, class Ids, class Allocator>
-grouping group_by_compaction(Policy const& exec, Count n, Ids ids, workspace<Allocator>& scratch,
+template <shader_id Shaders, class Policy, class Count, class Ids, class Workspace>
+grouping group_by_compaction(Policy const& exec, Count n, Ids ids, Workspace& scratch,
                              std::bitset<Shaders> const& wanted = std::bitset<Shaders>().set()) {
+  [[maybe_unused]] auto const grouped = scratch.begin_phase({"group"});
   return detail::compact_grouping<Shaders>(detail::system_of<Policy>{}, exec, n, ids, scratch,
                                            wanted);
 }

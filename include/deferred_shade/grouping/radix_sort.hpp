@@ -110,8 +110,9 @@ grouping radix_grouping(host_system, Policy const& exec, request_index n, Ids id
 ///
 /// `ids` is a random-access iterator of `n` ids; `n` is a request_index, or on CUDA a device_count.
 /// The result lives in `scratch` until its next use.
-template <shader_id Shaders, class Policy, class Count, class Ids, class Allocator>
-grouping group_by_radix_sort(Policy const& exec, Count n, Ids ids, workspace<Allocator>& scratch) {
+template <shader_id Shaders, class Policy, class Count, class Ids, class Workspace>
+grouping group_by_radix_sort(Policy const& exec, Count n, Ids ids, Workspace& scratch) {
+  [[maybe_unused]] auto const grouped = scratch.begin_phase({"group"});
   return detail::radix_grouping<Shaders>(detail::system_of<Policy>{}, exec, n, ids, scratch);
 }
 

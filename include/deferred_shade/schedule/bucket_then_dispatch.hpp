@@ -18,7 +18,7 @@ struct bucket_then_dispatch {
   template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
                   Workspace& scratch) const {
-    Dispatch{}(exec, group_by_bucket<sizeof...(Shaders)>(exec, n, ids, scratch), shaders);
+    Dispatch{}(exec, group_by_bucket<sizeof...(Shaders)>(exec, n, ids, scratch), shaders, scratch);
   }
 };
 

@@ -20,7 +20,7 @@ struct compact_then_dispatch {
                   Workspace& scratch) const {
     Dispatch{}(exec,
                group_by_compaction<sizeof...(Shaders)>(exec, n, ids, scratch, shaders.expected()),
-               shaders);
+               shaders, scratch);
   }
 };
 

@@ -60,7 +60,8 @@ template <class Sort = counting>
 struct local_sort_then_dispatch {
   template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
-                  Workspace&) const {
+                  Workspace& scratch) const {
+    [[maybe_unused]] auto const dispatched = scratch.begin_phase({"dispatch"});
     detail::run_tiles(detail::system_of<Policy>{}, Sort{}, exec, n, ids, shaders);
   }
 };

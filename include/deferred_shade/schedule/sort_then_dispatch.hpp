@@ -15,7 +15,8 @@ struct sort_then_dispatch {
   template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
                   Workspace& scratch) const {
-    Dispatch{}(exec, group_by_radix_sort<sizeof...(Shaders)>(exec, n, ids, scratch), shaders);
+    Dispatch{}(exec, group_by_radix_sort<sizeof...(Shaders)>(exec, n, ids, scratch), shaders,
+               scratch);
   }
 };
 

@@ -34,14 +34,15 @@ __global__ void segment_kernel(bool first, request_index const* permutation,
   for (; p < end; p += stride) shader(permutation[p]);
 }
 
-template <class Policy, class Count, class Ids, class... Shaders>
+template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
 void run_explicit(cuda_system, Policy const& exec, Count n, Ids ids,
-                  shader_table<Shaders...> const& shaders) {
+                  shader_table<Shaders...> const& shaders, Workspace const& scratch) {
   cudaStream_t const stream = stream_of(exec);
   auto const expected = shaders.expected();
   bool first = true;
   shaders.for_each([&](auto id, auto const& shader) {
     if (!expected[id]) return;
+    [[maybe_unused]] auto const running = scratch.begin_phase({"shader", id});
     using type = std::decay_t<decltype(shader)>;
     constexpr auto kernel =
         &masked_kernel<decltype(id)::value, sizeof...(Shaders), Count, Ids, type>;
@@ -51,14 +52,15 @@ void run_explicit(cuda_system, Policy const& exec, Count n, Ids ids,
   });
 }
 
-template <class Policy, class... Shaders>
+template <class Policy, class... Shaders, class Workspace>
 void run_explicit(cuda_system, Policy const& exec, grouping group,
-                  shader_table<Shaders...> const& shaders) {
+                  shader_table<Shaders...> const& shaders, Workspace const& scratch) {
   cudaStream_t const stream = stream_of(exec);
   auto const expected = shaders.expected();
   bool first = true;
   shaders.for_each([&](auto id, auto const& shader) {
     if (!expected[id]) return;
+    [[maybe_unused]] auto const running = scratch.begin_phase({"shader", id});
     using type = std::decay_t<decltype(shader)>;
     constexpr auto kernel = &segment_kernel<type>;
     auto const [threads, resident] = occupancy_of<kernel>(declared_block_size<type>);

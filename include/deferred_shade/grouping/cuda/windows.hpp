@@ -80,6 +80,7 @@ struct window_output {
 
 template <shader_id Shaders, class Count, class Ids, class Workspace>
 window_grouping group_windows(cudaStream_t stream, Count n, Ids ids, Workspace& scratch) {
+  [[maybe_unused]] auto const grouped = scratch.begin_phase({"group"});
   std::size_t const maximum = maximum_of(n);
   std::size_t const tiles = blocks_for(maximum, bucket_tile);
   auto const [sorted, counts, used] =

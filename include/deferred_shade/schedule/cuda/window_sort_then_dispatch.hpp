@@ -5,8 +5,9 @@
 #include <cstdint>
 
 #include <deferred_shade/cuda/launch.hpp>
-#include <deferred_shade/dispatch/cuda/implicit.hpp>
-#include <deferred_shade/grouping/cuda/bucket.hpp>
+#include <deferred_shade/dispatch/implicit.hpp>
+#include <deferred_shade/grouping/bucket.hpp>
+#include <deferred_shade/grouping/cuda/small_bucket.hpp>
 #include <deferred_shade/grouping/cuda/windows.hpp>
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/system.hpp>
@@ -42,6 +43,7 @@ void run_windows(cuda_system, Policy const& exec, Count n, Ids ids,
   constexpr shader_id size = sizeof...(Shaders);
   if constexpr (size <= most_small_buckets) {
     window_grouping const windows = group_windows<size>(stream_of(exec), n, ids, scratch);
+    [[maybe_unused]] auto const dispatched = scratch.begin_phase({"dispatch"});
     std::size_t const maximum = maximum_of(n);
     constexpr std::uint32_t threads = window_threads<Shaders...>;
     // Else it would run with what the sort leaves of the first-level cache, next to nothing.
@@ -49,8 +51,7 @@ void run_windows(cuda_system, Policy const& exec, Count n, Ids ids,
     launch<&window_kernel<Shaders...>>("window_sort_then_dispatch", stream_of(exec), shape, windows,
                                        maximum, shaders);
   } else {
-    run_implicit(cuda_system{}, exec, bucket_grouping<size>(cuda_system{}, exec, n, ids, scratch),
-                 shaders);
+    implicit_serialization{}(exec, group_by_bucket<size>(exec, n, ids, scratch), shaders, scratch);
   }
 }
 
