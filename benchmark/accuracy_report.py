@@ -94,7 +94,7 @@ def text(path):
     scenes = read(path)
     if len(scenes) == 1:
         return "\n\n".join(f"`{scene}`, {table(results)}" for scene, results in scenes.items())
-    return "\n\n".join(f"### {scene}\n\n{table(results)}" for scene, results in scenes.items())
+    return "\n\n".join(f"## {scene}\n\n{table(results)}" for scene, results in scenes.items())
 
 
 def bias(r):

@@ -15,6 +15,7 @@ namespace deferred_shade {
 ///
 ///     deferred_shade::observed seen{scratch, deferred_shade::nvtx_ranges{}};
 struct nvtx_ranges {
+  /// The library's own, by the name under which tools show it.
   struct domain {
     static constexpr char const* name = "deferred_shade";
   };
