@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nvtx3/nvtx3.hpp>
+#include <string>
+
+#include <deferred_shade/types.hpp>
+
+namespace deferred_shade {
+
+/// An observer that makes a range of NVTX of every phase, in a domain of the library's own, for
+/// Nsight Systems and other tools: "group", "dispatch", "shader 3". Of use on CPUs as well, and
+/// without a CUDA compiler: NVTX is a library of headers, which comes with the CUDA toolkit, and
+/// the one that is not included by deferred_shade.hpp.
+///
+///     deferred_shade::observed seen{scratch, deferred_shade::nvtx_ranges{}};
+struct nvtx_ranges {
+  auto operator()(phase const& p) const {
+    std::string const number = p.shader ? " " + std::to_string(*p.shader) : "";
+    return nvtx3::scoped_range_in<domain>{p.name + number};
+  }
+
+ private:
+  struct domain {
+    static constexpr char const* name = "deferred_shade";
+  };
+};
+
+}  // namespace deferred_shade
