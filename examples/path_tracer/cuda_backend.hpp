@@ -12,10 +12,14 @@
 #include <thrust/system/cuda/memory_resource.h>
 #include <thrust/system_error.h>
 
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <deque>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace path_tracer {
@@ -63,6 +67,23 @@ class cuda_backend {
     return to_host(thrust::raw_pointer_cast(array.data()), array.size());
   }
 
+  struct event {
+    cudaEvent_t handle = nullptr;
+    event() { check_cuda(cudaEventCreate(&handle), "cannot create a CUDA event"); }
+    ~event() { cudaEventDestroy(handle); }
+    event(event const&) = delete;
+    event& operator=(event const&) = delete;
+    void record(cudaStream_t stream) {
+      check_cuda(cudaEventRecord(handle, stream), "cannot record a CUDA event");
+    }
+    void wait() const { check_cuda(cudaEventSynchronize(handle), "the CUDA device failed"); }
+    double milliseconds_since(event const& start) const {
+      float result = 0;
+      check_cuda(cudaEventElapsedTime(&result, start.handle, handle), "cannot read a CUDA event");
+      return double{result};
+    }
+  };
+
   /// Measures by events: what the stream takes from start() to stop(). Reading it waits for the
   /// second.
   class stopwatch {
@@ -71,26 +92,64 @@ class cuda_backend {
     void start() { start_.record(stream_); }
     void stop() { stop_.record(stream_); }
     double milliseconds() const {
-      check_cuda(cudaEventSynchronize(stop_.handle), "the CUDA device failed");
-      float result = 0;
-      check_cuda(cudaEventElapsedTime(&result, start_.handle, stop_.handle),
-                 "cannot read a CUDA event");
-      return double{result};
+      stop_.wait();
+      return stop_.milliseconds_since(start_);
     }
 
    private:
-    struct event {
-      cudaEvent_t handle = nullptr;
-      event() { check_cuda(cudaEventCreate(&handle), "cannot create a CUDA event"); }
-      ~event() { cudaEventDestroy(handle); }
-      event(event const&) = delete;
-      event& operator=(event const&) = delete;
-      void record(cudaStream_t stream) {
-        check_cuda(cudaEventRecord(handle, stream), "cannot record a CUDA event");
-      }
-    };
     cudaStream_t stream_;
     event start_, stop_;
+  };
+
+  /// When the stream begins and ends pieces of work, of which the first one holds the others, by
+  /// events, which resolve half a microsecond. Time 0 is when the clock is made: the stream is
+  /// waited for then, so that it is the host's as well, but for what that takes.
+  class device_clock {
+   public:
+    static constexpr bool exists = true;
+
+    explicit device_clock(cuda_backend const& backend) : stream_(backend.stream_) {
+      base_.record(stream_);
+      base_.wait();
+    }
+
+    /// The number of a piece that begins here.
+    std::size_t begin() {
+      if (used_ == pieces_.size()) pieces_.emplace_back();
+      pieces_[used_].begin.record(stream_);
+      return used_++;
+    }
+    /// What fails here fails the next call too.
+    void end(std::size_t piece) noexcept { cudaEventRecord(pieces_[piece].end.handle, stream_); }
+
+    /// Waits for the pieces since the last call and tells when each began and ended, in
+    /// nanoseconds.
+    std::vector<std::pair<std::int64_t, std::int64_t>> read() {
+      std::vector<std::pair<std::int64_t, std::int64_t>> times(used_);
+      if (used_ == 0) return times;
+      pieces_[0].end.wait();
+      for (std::size_t k = 0; k < used_; ++k)
+        times[k] = {nanoseconds(pieces_[k].begin), nanoseconds(pieces_[k].end)};
+      // From here on times count from the last event, since a float has digits for a while only.
+      base_time_ = times[0].second;
+      std::swap(base_.handle, pieces_[0].end.handle);
+      used_ = 0;
+      return times;
+    }
+
+   private:
+    struct piece {
+      event begin, end;
+    };
+    std::int64_t nanoseconds(event const& e) const {
+      return base_time_ + std::llround(1e6 * e.milliseconds_since(base_));
+    }
+
+    cudaStream_t stream_;
+    event base_;
+    std::int64_t base_time_ = 0;
+    std::deque<piece> pieces_;  // which never moves an element
+    std::size_t used_ = 0;
   };
 
  private:

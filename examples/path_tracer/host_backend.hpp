@@ -9,7 +9,7 @@
 namespace path_tracer {
 
 /// What the integrator asks of the machine that it runs on: a Thrust execution policy, arrays in
-/// memory that the policy's workers reach, their elements on the host, and a clock. This one is for
+/// memory that the policy's workers reach, their elements on the host, and clocks. This one is for
 /// the policies of CPUs; that of GPUs has the same members.
 template <class Policy>
 class host_backend {
@@ -47,6 +47,12 @@ class host_backend {
    private:
     using clock = std::chrono::steady_clock;
     clock::time_point start_, stop_;
+  };
+
+  /// A CPU has no clock but the host's.
+  struct device_clock {
+    static constexpr bool exists = false;
+    explicit device_clock(host_backend const&) {}
   };
 
  private:

@@ -18,6 +18,7 @@
 #include "host_backend.hpp"
 #include "scattering.hpp"
 #include "shaders.hpp"
+#include "span_recorder.hpp"
 #include "stages.hpp"
 #include "statistics.hpp"
 #include "wave_storage.hpp"
@@ -62,18 +63,20 @@ class integrator {
         settings_(settings),
         scratch_(exec_),
         group_time_(backend),
-        total_time_(backend) {}
+        total_time_(backend),
+        spans_(backend, settings.most_spans) {}
 
   template <class Schedule>
   render_result run(Schedule const& schedule, progress_function const& progress) {
-    switch (settings_.accuracy.sums) {
-      case summation::in_float:
-        return run_with<pixel_sum<summation::in_float>>(schedule, progress);
-      case summation::compensated:
-        return run_with<pixel_sum<summation::compensated>>(schedule, progress);
-      default:
-        return run_with<pixel_sum<summation::in_double>>(schedule, progress);
-    }
+    summation const sums = settings_.accuracy.sums;
+    if (sums == summation::in_float)
+      run_with<pixel_sum<summation::in_float>>(schedule, progress);
+    else if (sums == summation::compensated)
+      run_with<pixel_sum<summation::compensated>>(schedule, progress);
+    else
+      run_with<pixel_sum<summation::in_double>>(schedule, progress);
+    result_.timeline = spans_.take();
+    return std::move(result_);
   }
 
  private:
@@ -81,7 +84,8 @@ class integrator {
   using clock = std::chrono::steady_clock;
 
   template <class Sum, class Schedule>
-  render_result run_with(Schedule const& schedule, progress_function const& progress) {
+  void run_with(Schedule const& schedule, progress_function const& progress) {
+    auto const whole = spans_.open("render");
     auto const start = clock::now();
     std::uint64_t const pixels = std::uint64_t{settings_.width} * settings_.height;
     std::uint64_t const items = pixels * settings_.samples;
@@ -98,10 +102,16 @@ class integrator {
       aside([&] { warm_up(schedule, wave, static_cast<std::uint32_t>(wave_size)); });
     for (wave.first = 0; wave.first < items; wave.first += wave_size) {
       auto const paths = static_cast<std::uint32_t>(glm::min(wave_size, items - wave.first));
-      trace_wave(schedule, wave, paths);
       auto const touched = static_cast<std::uint32_t>(glm::min(pixels, std::uint64_t{paths}));
-      for_all(touched, accumulate_samples<Sum>{wave, paths, data_of(sums)});
-      result_.discarded_samples += sum_over(paths, count_discarded{wave});
+      spans_.begin_wave();
+      {
+        auto const in_wave =
+            spans_.open("wave " + std::to_string(wave.first / wave_size + 1), paths);
+        trace_wave(schedule, wave, paths);
+        for_all("accumulate", touched, accumulate_samples<Sum>{wave, paths, data_of(sums)});
+        result_.discarded_samples += sum_over("count discarded", paths, count_discarded{wave});
+      }
+      spans_.end_wave();
       if (progress) progress(static_cast<double>(wave.first + paths) / static_cast<double>(items));
     }
     result_.pixels.reserve(pixels);
@@ -112,7 +122,6 @@ class integrator {
       aside_seconds_ += 1e-3 * b.group_ms;
     }
     result_.seconds = seconds_since(start) - aside_seconds_;
-    return std::move(result_);
   }
 
   static double seconds_since(clock::time_point start) {
@@ -121,26 +130,31 @@ class integrator {
   /// Does what belongs to statistics and not to the picture; its time does not count.
   template <class Function>
   void aside(Function const& f) {
+    auto const in_aside = spans_.open("statistics");
     auto const start = clock::now();
     f();
     aside_seconds_ += seconds_since(start);
   }
 
   template <class Function>
-  void for_all(std::uint32_t count, Function const& f) {
+  void for_all(char const* stage, std::uint32_t count, Function const& f) {
+    auto const in_stage = spans_.open(stage);
     thrust::for_each_n(exec_, thrust::counting_iterator<request_index>(0), count, f);
   }
   template <class Function>
-  std::uint64_t sum_over(std::uint32_t count, Function const& f) {
+  std::uint64_t sum_over(char const* stage, std::uint32_t count, Function const& f) {
+    auto const in_stage = spans_.open(stage);
     thrust::counting_iterator<request_index> const first(0);
     return thrust::transform_reduce(exec_, first, first + count, f, std::uint64_t{0},
                                     thrust::plus<std::uint64_t>());
   }
   template <class Schedule, class Table>
-  void timed_shade(Schedule const& schedule, std::uint32_t paths, std::uint8_t const* ids,
-                   Table const& table, stopwatch& time) {
+  void timed_shade(char const* stage, Schedule const& schedule, std::uint32_t paths,
+                   std::uint8_t const* ids, Table const& table, stopwatch& time) {
+    auto const in_stage = spans_.open(stage);
+    deferred_shade::observed seen{scratch_, spans_.observer()};
     time.start();
-    deferred_shade::shade(exec_, schedule, paths, ids, table, scratch_);
+    deferred_shade::shade(exec_, schedule, paths, ids, table, seen);
     time.stop();
   }
 
@@ -157,25 +171,28 @@ class integrator {
   void shade_and_time(Schedule const& schedule, wave_view<Set> const& wave, std::uint32_t paths) {
     auto const& expected = settings_.expected;
     if (settings_.statistics)
-      timed_shade(schedule, paths, wave.id, uniform_table(empty_shader{}).expecting(expected),
-                  group_time_);
-    timed_shade(schedule, paths, wave.id, make_shaders(wave, scene_).expecting(expected),
+      timed_shade("shade nothing", schedule, paths, wave.id,
+                  uniform_table(empty_shader{}).expecting(expected), group_time_);
+    timed_shade("shade", schedule, paths, wave.id, make_shaders(wave, scene_).expecting(expected),
                 total_time_);
   }
 
   template <class Schedule>
   void trace_wave(Schedule const& schedule, wave_view<Set> wave, std::uint32_t paths) {
-    for_all(paths, generate_paths<Set>{wave, scene_.view, settings_.width, settings_.height});
+    for_all("generate", paths,
+            generate_paths<Set>{wave, scene_.view, settings_.width, settings_.height});
     ray_count rays{paths, 0};
     for (wave.bounce = 0; rays.extended > 0 && wave.bounce != wave.max_depth; ++wave.bounce) {
-      for_all(paths, find_hits<Set>{wave, scene_});
+      auto const in_bounce =
+          spans_.open("bounce " + std::to_string(wave.bounce + 1), rays.extended);
+      for_all("intersect", paths, find_hits<Set>{wave, scene_});
       if (result_.bounces.size() == wave.bounce) result_.bounces.emplace_back();
       bounce& b = result_.bounces[wave.bounce];
       b.requests += rays.extended;
       shade_and_time(schedule, wave, paths);
-      for_all(paths, trace_shadows<Set>{wave, scene_});
+      for_all("shadow", paths, trace_shadows<Set>{wave, scene_});
       result_.rays += rays.extended;
-      rays = ray_count::unpacked(sum_over(paths, count_rays{wave}));
+      rays = ray_count::unpacked(sum_over("count rays", paths, count_rays{wave}));
       result_.rays += rays.shadow;
       b.total_ms += total_time_.milliseconds();
       if (settings_.statistics) b.group_ms += group_time_.milliseconds();
@@ -190,6 +207,7 @@ class integrator {
   render_settings settings_;
   decltype(deferred_shade::workspace{std::declval<Backend const&>().policy()}) scratch_;
   stopwatch group_time_, total_time_;
+  span_recorder<Backend> spans_;
   double aside_seconds_ = 0;
   render_result result_;
 };

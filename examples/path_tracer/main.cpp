@@ -13,6 +13,7 @@
 #include "progress.hpp"
 #include "report.hpp"
 #include "scene_effects.hpp"
+#include "trace.hpp"
 
 namespace {
 
@@ -30,6 +31,7 @@ void complain(std::string text) {
 void check_outputs(options const& o) {
   check_writable(o.output);
   if (!o.report.empty()) check_writable(o.report);
+  if (!o.trace.empty()) check_writable(o.trace);
   if (o.heatmap_folder.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(o.heatmap_folder, error);
@@ -42,16 +44,19 @@ render_result render_with(options const& o, scene const& s, std::string const& s
   settings.schedule = schedule;
   settings.statistics =
       o.settings.schedule == "all" || !o.report.empty() || !o.heatmap_folder.empty();
+  if (!o.trace.empty()) settings.most_spans = most_traced_spans;
   if (o.quiet) return render(s, settings);
   progress shown(schedule, stderr);
   return render(s, settings, [&](double fraction) { shown(fraction); });
 }
 
 void print_summary(options const& o, std::vector<run> const& runs) {
-  for (run const& r : runs)
+  for (run const& r : runs) {
     if (r.result.discarded_samples > 0)
       complain("warning: schedule " + r.schedule + " discarded " +
                std::to_string(r.result.discarded_samples) + " samples that were not finite");
+    if (std::string const text = left_out(r); !text.empty()) complain("warning: " + text);
+  }
   if (o.settings.schedule == "all") {
     std::cout << table(runs);
     std::cout << "all " << runs.size() << " pictures are bit-identical\n";
@@ -92,6 +97,7 @@ void run_all(options o) {
   }
   write_image(o.output, {o.settings.width, o.settings.height, runs.front().result.pixels});
   if (!o.report.empty()) write_file(o.report, json_report(o, s.triangles.size(), runs));
+  if (!o.trace.empty()) write_file(o.trace, trace_json(o, runs));
   if (!o.quiet) print_summary(o, runs);
 }
 

@@ -166,6 +166,10 @@ void declare(CLI::App& app, options& o) {
        "Write a picture for each bounce: how well the groups of 32\n"
        "requests use their SIMD lanes")
       ->type_name("DIR");
+  text("--trace", o.trace,
+       "Write what was done and when, for https://ui.perfetto.dev or\n"
+       "chrome://tracing: trace events as JSON")
+      ->type_name("FILE");
 
   app.add_flag("-q,--quiet", o.quiet, "Print errors only")->group("Information");
   app.set_help_flag("-h,--help", "Print this and exit")->group("Information");

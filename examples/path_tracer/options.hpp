@@ -21,6 +21,7 @@ struct options {
   render_settings settings;      ///< `schedule` may also be "all"
   std::string report;            ///< file for the JSON report; empty: none
   std::string heatmap_folder;    ///< empty: no heat maps
+  std::string trace;             ///< file for the timeline; empty: none
   std::string effects = "auto";  ///< or "all", or names
   bool explain = false;
   bool quiet = false;

@@ -11,6 +11,7 @@
 
 #include "accuracy.hpp"
 #include "scene.hpp"
+#include "timeline.hpp"
 
 namespace path_tracer {
 
@@ -27,7 +28,8 @@ struct render_settings {
   std::size_t variant = ~std::size_t{0};
   /// The shaders that are launched, in schedules that launch one after another.
   std::bitset<shader_count> expected = std::bitset<shader_count>().set();
-  bool statistics = false;  ///< fill bounce::efficiency and bounce::group_efficiency
+  bool statistics = false;     ///< fill bounce::efficiency and bounce::group_efficiency
+  std::size_t most_spans = 0;  ///< a timeline ends with the wave that reaches so many; 0: none
 };
 
 /// What one bounce took, summed over all waves of the image.
@@ -47,6 +49,7 @@ struct render_result {
   double seconds = 0;                   ///< without what statistics took
   std::uint64_t rays = 0;               ///< closest-hit and shadow rays
   std::uint64_t discarded_samples = 0;  ///< samples that were not finite
+  path_tracer::timeline timeline;
 };
 
 /// Names for --backend and --schedule, in the order of the table that `--schedule all` prints.

@@ -79,7 +79,7 @@ TEST_CASE("help and version go to standard output") {
     CHECK(help.out.find(name) != std::string::npos);
   for (char const* word : {"--output", "--width", "--height", "--spp", "--max-depth", "--seed",
                            "--backend", "--threads", "--schedule", "--report", "--heatmap",
-                           "--quiet", "--version", "[512]", "Example"})
+                           "--trace", "--quiet", "--version", "[512]", "Example"})
     CHECK(help.out.find(word) != std::string::npos);
   outcome const version = run_path_tracer({"--version"});
   CHECK(version.exit_code == 0);
@@ -116,6 +116,8 @@ TEST_CASE("an output that cannot be written is refused in one line with exit cod
       {{"-o", w.folder / (std::string(300, 'x') + ".png")}, "File name too long"},
       {{"-o", good, "--report", w.folder / "none/r.json"}, "none/r.json: No such file"},
       {{"-o", good, "--report", w.folder / "folder.png"}, "folder.png: Is a directory"},
+      {{"-o", good, "--trace", w.folder / "none/t.json"}, "none/t.json: No such file"},
+      {{"-o", good, "--trace", w.folder / "folder.png"}, "folder.png: Is a directory"},
       {{"-o", good, "--heatmap", w.folder / "scene.gltf"}, "scene.gltf"},
       {{"-o", good, "--heatmap", "/proc/heat"}, "/proc/heat"},
   };
@@ -123,8 +125,9 @@ TEST_CASE("an output that cannot be written is refused in one line with exit cod
     check_refused(run_path_tracer(w.arguments(c.arguments)), 1, c.words);
     CHECK(w.folder.names() == before);
   }
-  check_refused(run_path_tracer(w.arguments({"-o", good, "--report", w.folder / "full.json"})), 1,
-                "full.json: No space left on device");
+  for (char const* option : {"--report", "--trace"})
+    check_refused(run_path_tracer(w.arguments({"-o", good, option, w.folder / "full.json"})), 1,
+                  "full.json: No space left on device");
 }
 
 TEST_CASE("a picture that does not fit on the disk leaves the older one as it was") {
