@@ -11,14 +11,17 @@ namespace {
 
 using json = nlohmann::ordered_json;
 
-enum thread { host = 1, device = 2 };
+/// Perfetto takes the thread with the number of its process for the main one and shows it first,
+/// and Linux has no two threads of the same number.
+std::size_t host_of(std::size_t process) { return process; }
+std::size_t device_of(std::size_t process) { return 1000 + process; }
 
 /// An event of its own line. A name that is not UTF-8 is written with replacement characters.
 std::string line(json const& event) {
   return event.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-json name_of(char const* what, std::size_t process, int thread, std::string const& name) {
+json name_of(char const* what, std::size_t process, std::size_t thread, std::string const& name) {
   return {
       {"ph", "M"}, {"name", what}, {"pid", process}, {"tid", thread}, {"args", {{"name", name}}}};
 }
@@ -34,7 +37,7 @@ json event_of(span const& s, std::size_t process) {
   return {{"ph", "X"},
           {"name", s.shader ? shader_name(*s.shader) : s.name},
           {"pid", process},
-          {"tid", s.on_device ? device : host},
+          {"tid", s.on_device ? device_of(process) : host_of(process)},
           {"ts", static_cast<double>(s.begin) / 1e3},
           {"dur", static_cast<double>(s.end - s.begin) / 1e3},
           {"args", arguments}};
@@ -56,10 +59,12 @@ std::string trace_json(options const& o, std::vector<run> const& runs) {
   bool const on_gpu = o.settings.backend == "cuda";
   for (std::size_t k = 0; k < runs.size(); ++k) {
     std::size_t const process = k + 1;
-    lines.push_back(line(name_of("process_name", process, host, "schedule " + runs[k].schedule)));
-    lines.push_back(line(name_of("thread_name", process, host,
+    lines.push_back(
+        line(name_of("process_name", process, host_of(process), "schedule " + runs[k].schedule)));
+    lines.push_back(line(name_of("thread_name", process, host_of(process),
                                  on_gpu ? "host: submission" : o.settings.backend + ": work")));
-    if (on_gpu) lines.push_back(line(name_of("thread_name", process, device, "GPU: work")));
+    if (on_gpu)
+      lines.push_back(line(name_of("thread_name", process, device_of(process), "GPU: work")));
     for (span const& s : runs[k].result.timeline.spans) lines.push_back(line(event_of(s, process)));
     if (std::string const text = left_out(runs[k]); !text.empty()) missing.push_back(text);
   }

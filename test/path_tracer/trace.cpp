@@ -89,10 +89,11 @@ TEST_CASE("a trace holds every schedule as a process whose spans nest", "[trace]
       named = named || (e["name"] == "process_name" && e["pid"] == process &&
                         e["args"]["name"] == "schedule " + std::string(schedule));
     CHECK(named);
-    for (int thread = 1; thread <= (backend == "cuda" ? 2 : 1); ++thread) {
+    for (int const thread : {process, 1000 + process}) {
+      if (thread != process && backend != "cuda") continue;
       auto const spans = nested(events, process, thread);
       REQUIRE(!spans.empty());
-      CHECK(spans[0].name() == (thread == 1 ? "render" : "wave 1"));
+      CHECK(spans[0].name() == (thread == process ? "render" : "wave 1"));
       for (char const* stage : {"generate", "accumulate"})
         CHECK(time_in(spans, stage, "wave 1") > 0);
       for (char const* stage : {"intersect", "shade", "shadow", "count rays"})
