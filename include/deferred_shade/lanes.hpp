@@ -95,13 +95,10 @@ class lanes {
 #if DEFERRED_SHADE_HAS_SHUFFLE
   static four_words words_of(T const& record, std::size_t first) noexcept {
     four_words words;
-    std::memcpy(&words, bytes_of(record) + 4 * first, 16);
+    std::memcpy(&words, reinterpret_cast<unsigned char const*>(&record) + 4 * first, 16);
     return words;
   }
 #endif
-  static unsigned char const* bytes_of(T const& record) noexcept {
-    return reinterpret_cast<unsigned char const*>(&record);
-  }
 
   std::uint32_t words_[count][Size];
 };

@@ -33,11 +33,22 @@ void check_places(std::vector<ds::detail::sort_key<Shaders>> const& keys, Number
     expected.insert(expected.end(), numbers.begin(), numbers.end());
     ends.push_back(static_cast<std::uint32_t>(expected.size()));
   }
-  std::vector<Number> places(keys.size());
-  ds::detail::place_by_keys<Prefetch>(keys.data(), static_cast<std::uint32_t>(keys.size()), first,
-                                      next.data(), places.data());
-  CHECK(test::first_difference(places, expected) == places.size());
-  CHECK(next == ends);
+  auto const size = static_cast<std::uint32_t>(keys.size());
+  auto const check = [&](auto const& place) {
+    std::vector<Number> places(size);
+    std::vector<std::uint32_t> here = next;
+    place(here.data(), places.data());
+    CHECK(test::first_difference(places, expected) == places.size());
+    CHECK(here == ends);
+  };
+  check([&](std::uint32_t* here, Number* places) {
+    ds::detail::place_by_keys<Prefetch>(keys.data(), size, first, here, places);
+  });
+  check([&](std::uint32_t* here, Number* places) {
+    ds::detail::key_counts<Shaders> counts;
+    counts.add(keys.data(), size);
+    counts.place(keys.data(), size, first, here, places);
+  });
 }
 
 template <std::uint32_t Shaders>

@@ -43,12 +43,11 @@ void run_explicit(host_system, Policy const& exec, grouping group,
   shaders.for_each([&](auto id, auto const& shader) {
     if (!expected[id]) return;
     request_index const begin = group.offsets[id];
-    request_index const end = group.offsets[id + 1];
-    if (begin == end) return;
-    [[maybe_unused]] auto const running = scratch.begin_phase({"shader", id, end - begin});
+    std::size_t const size = group.offsets[id + 1] - begin;
+    if (size == 0) return;
+    [[maybe_unused]] auto const running = scratch.begin_phase({"shader", id, size});
     using type = std::decay_t<decltype(shader)>;
     if constexpr (is_packable<type>) {
-      std::size_t const size = end - begin;
       // Small chunks for a small segment, so that every worker has some.
       std::size_t const chunk = size < 16384 ? 32 : packed_lanes<type>;
       request_index const* const segment = group.permutation + begin;
@@ -67,7 +66,7 @@ void run_explicit(host_system, Policy const& exec, grouping group,
                                });
                          });
     } else {
-      thrust::for_each_n(exec, group.permutation + begin, std::size_t{end - begin},
+      thrust::for_each_n(exec, group.permutation + begin, size,
                          [&shader](request_index i) { shader(i); });
     }
   });

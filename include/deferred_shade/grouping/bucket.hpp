@@ -41,7 +41,7 @@ grouping bucket_grouping(host_system, Policy const& exec, request_index n, Ids i
       elements<request_index>(columns));
 
   for_each_block(exec, blocks, [=, counts = counts](std::size_t b) {
-    key_counts<Shaders> of_block;
+    key_counts<Shaders, are_compared<Shaders> ? 1 : parts_in_turn<Shaders>> of_block;
     for_each_chunk<Shaders>(
         ids, blocks.begin(b), blocks.end(b),
         [&](auto const* keys, request_index, request_index size) { of_block.add(keys, size); });

@@ -9,7 +9,6 @@
 #include <bitset>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 
 #include <deferred_shade/blocks.hpp>
 #include <deferred_shade/system.hpp>
@@ -29,10 +28,8 @@ grouping compact_grouping(host_system, Policy const& exec, request_index n, Ids 
   auto const [permutation, counts, offsets] = scratch.take(
       elements<request_index>(n), elements<std::uint32_t>(blocks.max_count(n, Shaders) + 1),
       elements<request_index>(Shaders + 1));
-  auto const requests = [blocks](std::size_t b) {
-    using iterator = thrust::counting_iterator<request_index>;
-    return std::pair(iterator(static_cast<request_index>(blocks.begin(b))),
-                     iterator(static_cast<request_index>(blocks.end(b))));
+  auto const request = [](std::size_t i) {
+    return thrust::counting_iterator<request_index>(static_cast<request_index>(i));
   };
 
   offsets[0] = 0;
@@ -41,15 +38,15 @@ grouping compact_grouping(host_system, Policy const& exec, request_index n, Ids 
     if (!wanted[k]) continue;
     auto const selected = [ids, k](request_index i) { return shader_of(ids, i, Shaders) == k; };
     for_each_block(exec, blocks, [=, counts = counts](std::size_t b) {
-      auto const [first, last] = requests(b);
-      counts[b] = static_cast<std::uint32_t>(thrust::count_if(thrust::seq, first, last, selected));
+      counts[b] = static_cast<std::uint32_t>(thrust::count_if(thrust::seq, request(blocks.begin(b)),
+                                                              request(blocks.end(b)), selected));
     });
     counts[blocks.count()] = 0;
     thrust::exclusive_scan(thrust::seq, counts, counts + blocks.count() + 1, counts, offsets[k]);
     offsets[k + 1] = counts[blocks.count()];
     for_each_block(exec, blocks, [=, counts = counts, permutation = permutation](std::size_t b) {
-      auto const [first, last] = requests(b);
-      thrust::copy_if(thrust::seq, first, last, permutation + counts[b], selected);
+      thrust::copy_if(thrust::seq, request(blocks.begin(b)), request(blocks.end(b)),
+                      permutation + counts[b], selected);
     });
   }
   return {permutation, offsets, n};

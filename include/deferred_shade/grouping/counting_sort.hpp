@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 #include <iterator>
+#include <utility>
 
 #include <deferred_shade/config.hpp>
 #include <deferred_shade/prefetch.hpp>
@@ -50,42 +51,75 @@ using byte_vector = std::uint8_t __attribute__((vector_size(32)));
 #else
 using byte_vector = std::uint8_t __attribute__((vector_size(16)));
 #endif
+#else
+using byte_vector = std::uint8_t;
 #endif
 
-/// How often each of the keys 0 to `Shaders` occurs.
+/// Whether keys are counted by comparing vectors of them with one shader after the other: for few
+/// shaders less work than to look at the keys one by one.
 template <shader_id Shaders>
+inline constexpr bool are_compared = Shaders <= 3 * sizeof(byte_vector) / 8;
+
+/// The parts of a sequence that are counted in turn. Neighbours often are the same, and the one
+/// increment waits for the other; but the counters are to stay in the first-level cache.
+template <shader_id Shaders>
+inline constexpr request_index parts_in_turn = Shaders < 512 ? 8 : 1;
+
+/// How often each of the keys 0 to `Shaders` occurs in each part of a sequence: in `Parts` parts of
+/// equal length, and what is left over is the last one's.
+template <shader_id Shaders, request_index Parts = parts_in_turn<Shaders>>
 class key_counts {
   using key = sort_key<Shaders>;
 
  public:
   void add(key const* keys, request_index size) {
-    request_index i = 0;
+    request_index compared = 0;
 #if DEFERRED_SHADE_HAS_GNU
-    if constexpr (Shaders <= 3 * sizeof(byte_vector) / 8) i = add_vectors(keys, size);
-#endif
-    for (; size - i >= ways; i += ways) {
-      ++partial_[0][keys[i]];
-      if constexpr (ways == 4) {
-        ++partial_[1][keys[i + 1]];
-        ++partial_[2][keys[i + 2]];
-        ++partial_[3][keys[i + 3]];
+    if constexpr (are_compared<Shaders>) {
+      request_index const length = size / Parts;
+      for (request_index p = 0; p < Parts; ++p) {
+        compared = add_vectors(keys + p * length, length, of_part_[p]);
       }
     }
-    for (; i < size; ++i) ++partial_[0][keys[i]];
+#endif
+    in_turn(compared, size, [keys](std::uint32_t* counts, request_index i) { ++counts[keys[i]]; });
   }
 
   std::uint32_t of(shader_id k) const {
     std::uint32_t sum = 0;
-    for (auto const& counts : partial_) sum += counts[k];
+    for (auto const& counts : of_part_) sum += counts[k];
     return sum;
   }
 
+  /// Puts the numbers `first` to `first + size - 1` to the places of their keys, those that were
+  /// added, in this order: next[k] is the place of the next number whose key is k, before and
+  /// after. Counts are places then.
+  template <class Number>
+  void place(key const* keys, request_index size, Number first, std::uint32_t* next,
+             Number* places) {
+    for (shader_id k = 0; k <= Shaders; ++k) {
+      for (auto& counts : of_part_) counts[k] = std::exchange(next[k], next[k] + counts[k]);
+    }
+    in_turn(0, size, [=](std::uint32_t* next_of_part, request_index i) {
+      places[next_of_part[keys[i]]++] = static_cast<Number>(first + i);
+    });
+  }
+
  private:
+  // Calls `f(counts, i)` for every key i from number `begin` of its part on.
+  template <class Function>
+  void in_turn(request_index begin, request_index size, Function const& f) {
+    request_index const length = size / Parts;
+    for (request_index i = begin; i < length; ++i) {
+      for (request_index p = 0; p < Parts; ++p) f(of_part_[p], p * length + i);
+    }
+    for (request_index i = Parts * length; i < size; ++i) f(of_part_[Parts - 1], i);
+  }
+
 #if DEFERRED_SHADE_HAS_GNU
-  // Compares vectors of keys with one shader after the other, and subtracts the answers, which are
-  // -1 where they agree: for few shaders less work than to look at the keys one by one. Returns how
-  // many keys it has counted.
-  request_index add_vectors(key const* keys, request_index size) {
+  // Subtracts the answers, which are -1 where a key is that of the shader. Returns how many keys it
+  // has counted.
+  static request_index add_vectors(key const* keys, request_index size, std::uint32_t* counts_of) {
     constexpr request_index width = sizeof(byte_vector);
     request_index i = 0;
     while (size - i >= width) {
@@ -100,20 +134,17 @@ class key_counts {
         }
         std::uint32_t sum = 0;
         for (request_index lane = 0; lane < width; ++lane) sum += counts[lane];
-        partial_[0][k] += sum;
+        counts_of[k] += sum;
         none -= sum;
       }
-      partial_[0][Shaders] += none;
+      counts_of[Shaders] += none;
       i += rows * width;
     }
     return i;
   }
 #endif
 
-  // Neighbours often are the same. Four counters in turn keep the one increment from waiting for
-  // the other, as long as they stay in the first-level cache.
-  static constexpr request_index ways = Shaders < 512 ? 4 : 1;
-  std::uint32_t partial_[ways][Shaders + 1] = {};
+  std::uint32_t of_part_[Parts][Shaders + 1] = {};
 };
 
 /// How many neighbouring keys are looked at together, and whether that many are the same.
@@ -123,35 +154,33 @@ bool are_same(Key const* keys) {
   return std::memcmp(keys, keys + 1, (key_step - 1) * sizeof(Key)) == 0;
 }
 
-/// Whether neighbours often are the same, by a look at an eighth of them.
+/// In how many quarters of all looks neighbours are the same, by a look at an eighth of them.
 template <class Key>
-bool are_coherent(Key const* keys, request_index size) {
+request_index quarters_same(Key const* keys, request_index size) {
   request_index looks = 0;
   request_index same = 0;
   for (request_index i = 0; size - i >= key_step; ++looks, i += std::min(size - i, 8 * key_step)) {
     same += are_same(keys + i);
   }
-  return same > looks / 4;
+  return looks == 0 ? 0 : 4 * same / looks;
 }
 
-/// Puts the numbers `first` to `first + size - 1` to the places of their keys, in this order:
-/// next[k] is the place of the next number whose key is k, before and after. With `Prefetch`, what
-/// is behind a place is prefetched: for places that are too many, and too far from each other, for
-/// the processor to do so by itself.
+/// The same as key_counts::place with no counts of these keys, one after the other. With
+/// `Prefetch`, what is behind a place is prefetched: for places that are too many, and too far from
+/// each other, for the processor to do so by itself.
 template <bool Prefetch, class Key, class Number>
 void place_by_keys(Key const* keys, request_index size, Number first, std::uint32_t* next,
                    Number* places) {
-  constexpr request_index ahead = 128 / sizeof(Number);
   request_index i = 0;
   auto const place_up_to = [&](request_index end) {
     for (; i < end; ++i) {
       std::uint32_t const place = next[keys[i]]++;
       places[place] = static_cast<Number>(first + i);
-      if constexpr (Prefetch) prefetch<true>(places, place + ahead);
+      if constexpr (Prefetch) prefetch<true>(places, place + 128 / sizeof(Number));
     }
   };
   // Those that are the same take one look at `next`, where each would wait for the one before.
-  for (bool const coherent = are_coherent(keys, size); coherent && size - i >= key_step;) {
+  for (bool const some = quarters_same(keys, size) > 0; some && size - i >= key_step;) {
     if (are_same(keys + i)) {
       Number* const here = places + next[keys[i]];
       next[keys[i]] += key_step;

@@ -57,14 +57,15 @@ void counting_sort(Ids const& ids, request_index first, request_index size,
   load_keys<Shaders>(ids, first, size, keys);
   key_counts<Shaders> counts;
   counts.add(keys, size);
-  std::uint32_t next[Shaders + 1];
-  std::uint32_t total = 0;
-  for (shader_id k = 0; k <= Shaders; ++k) {
-    next[k] = result.offsets[k] = total;
-    total += counts.of(k);
+  // Where the next request of shader k goes to is where those of k + 1 begin when all are placed.
+  std::uint32_t* const next = result.offsets + 1;
+  result.offsets[0] = next[0] = 0;
+  for (shader_id k = 0; k < Shaders; ++k) next[k + 1] = next[k] + counts.of(k);
+  if (quarters_same(keys, size) >= 3) {
+    place_by_keys<false>(keys, size, std::uint16_t{0}, next, result.order);
+  } else {
+    counts.place(keys, size, std::uint16_t{0}, next, result.order);
   }
-  result.offsets[Shaders + 1] = total;
-  place_by_keys<false>(keys, size, std::uint16_t{0}, next, result.order);
 }
 
 /// Where the stretch of neighbours that name the same shader ends that begins at `begin`: at `end`
@@ -85,27 +86,26 @@ request_index end_of_stretch(Ids const& ids, request_index begin, request_index 
 }
 
 /// Runs a tile as it lies, if neighbours mostly name the same shader: there is little to gain from
-/// sorting it. Returns whether it did.
-template <class Ids, class... Shaders>
+/// sorting it. A tile has at most `Tile` requests. Returns whether it did.
+template <request_index Tile, class Ids, class... Shaders>
 bool run_long_stretches(Ids const& ids, request_index first, request_index size,
                         shader_table<Shaders...> const& shaders) {
   constexpr shader_id none = sizeof...(Shaders);
   constexpr request_index long_stretch = 64;
   request_index const end = first + size;
+  request_index ends[Tile / long_stretch + 1];
   request_index stretches = 0;
-  for (request_index begin = first; begin < end; ++stretches) {
+  for (request_index begin = first; begin < end; begin = ends[stretches++]) {
     if (stretches > size / long_stretch) return false;
-    begin = end_of_stretch(ids, begin, end, none);
+    ends[stretches] = end_of_stretch(ids, begin, end, none);
   }
-  for (request_index begin = first; begin < end;) {
-    request_index const next = end_of_stretch(ids, begin, end, none);
+  for (request_index k = 0, begin = first; k < stretches; begin = ends[k++]) {
     shaders.visit(shader_of(ids, begin, none), [&](auto const& shader) {
       run_segment(
-          shader, next - begin,
+          shader, ends[k] - begin,
           [begin](std::size_t j) { return begin + static_cast<request_index>(j); },
           [](std::size_t) {});
     });
-    begin = next;
   }
   return true;
 }
@@ -115,7 +115,7 @@ template <request_index Tile, class Policy, class Ids, class... Shaders>
 void run_sorted_tiles(Policy const& exec, request_index n, Ids ids,
                       shader_table<Shaders...> const& shaders) {
   for_each_tile<Tile>(exec, n, [n, ids, &shaders](request_index first, request_index size) {
-    if (run_long_stretches(ids, first, size, shaders)) return;
+    if (run_long_stretches<Tile>(ids, first, size, shaders)) return;
     sorted_tile<sizeof...(Shaders), Tile> tile;
     counting_sort(ids, first, size, tile);
     // The next tile, which mostly is the same worker's, in the order in which it lies.
