@@ -157,8 +157,7 @@ bool are_same(Key const* keys) {
 /// In how many quarters of all looks neighbours are the same, by a look at an eighth of them.
 template <class Key>
 request_index quarters_same(Key const* keys, request_index size) {
-  request_index looks = 0;
-  request_index same = 0;
+  request_index looks = 0, same = 0;
   for (request_index i = 0; size - i >= key_step; ++looks, i += std::min(size - i, 8 * key_step)) {
     same += are_same(keys + i);
   }
@@ -184,6 +183,7 @@ void place_by_keys(Key const* keys, request_index size, Number first, std::uint3
     if (are_same(keys + i)) {
       Number* const here = places + next[keys[i]];
       next[keys[i]] += key_step;
+      if constexpr (Prefetch) prefetch<true>(here, 320 / sizeof(Number));
       for (request_index j = 0; j < key_step; ++j) here[j] = static_cast<Number>(first + i + j);
       i += key_step;
     } else {
