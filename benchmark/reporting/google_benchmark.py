@@ -21,7 +21,8 @@ class Report:
             report = json.load(file)
         self.context, self.errors, self.ranges = report["context"], [], {}
         found = defaultdict(list)
-        for cell in report["benchmarks"]:
+        # In the order of the program, if repetitions ran in another (--benchmark_enable_random_interleaving).
+        for cell in sorted(report["benchmarks"], key=lambda cell: cell.get("family_index", 0)):
             if cell.get("run_type") == "aggregate":
                 continue
             if cell.get("error_occurred"):
