@@ -43,3 +43,13 @@ def apart(path, one, other):
     off = sorted(max(a / b, b / a) - 1 for kinds in cells.rows.values() for times in kinds.values()
                  for a, b in [(times[one], times[other])])
     return f"{100 * off[len(off) // 2]:.0f} % in the median cell, {100 * off[-1]:.0f} % in the worst"
+
+
+def against(*paths, one, other, n="", shaders=""):
+    """From the least to the most that one way to group takes next to another, for a sentence: with the sizes and the
+    tables named, or with all."""
+    sizes, tables = (set(filter(None, words.split(","))) for words in (n, shaders))
+    found = [time / times[(name, other), count, run] for path in paths for times in [Report(path).times]
+             for ((name, way), count, run), time in times.items()
+             if way == one and (not sizes or str(count) in sizes) and (not tables or name.split()[0] in tables)]
+    return f"{min(found):.1f} to {max(found):.1f}"

@@ -41,6 +41,7 @@ VIEWS = {
     "means": means.means,
     "span": means.span,
     "apart": means.apart,
+    "against": means.against,
     "scenes": claims.scenes,
     "coherence": claims.coherence,
     "efficiency": hits.efficiency,
