@@ -6,8 +6,8 @@ from .markdown import table
 from .paper import EFFICIENCY
 from .svg import Drawing, apart
 
-WIDTH, LEFT, RIGHT, TOP, BOTTOM = 440, 58, 344, 40, 250
-LOOKS = (("s5", "square"), ("s0", "disc"), ("s1", "diamond"), ("s2", "disc"), ("s3", "square"))
+WIDTH, LEFT, RIGHT, TOP, BOTTOM = 440, 52, 262, 40, 270
+LOOKS = (("s5", "square"), ("s0", "disc"), ("s1", "diamond"), ("s2", "disc"), ("s3", "square"), ("s4", "disc"))
 
 
 def bounces_of(path, schedule):

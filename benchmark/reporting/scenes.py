@@ -6,11 +6,9 @@ import statistics
 from .hits import hits
 from .markdown import table
 from .paper import EFFICIENCY, SCENES
-from .svg import Drawing, apart
 
 ORDERS = {"implicit": "as they come", "local-bitonic": "sorted in blocks of 256", "bucket+explicit": "grouped"}
 PROCEDURAL = ("marble", "wood")
-WIDTH, HEIGHT, LEFT, RIGHT, TOP = 440, 330, 52, 262, 44
 
 
 def read(path):
@@ -76,35 +74,3 @@ def times(path):
         ", ".join([result["machine"], f"commit {result['commit']}", f"{settings['width']} x {settings['height']}"] +
                   [f"{key} {settings[key]}" for key in ("backend", "spp", "max_depth")] + [f"{runs} runs"]),
         table(["schedule"] + scenes, rows)])
-
-
-def plot(path):
-    """The efficiency of requests as they come, hit by hit, of each scene and of the paper."""
-    curves = {scene: [100 * share for share in shares] for scene, shares in hits(path)}
-    d = Drawing(WIDTH, HEIGHT, "Heterogeneous efficiency of requests as they come, hit by hit, of five scenes")
-    bottom = HEIGHT - 48
-
-    def x(hit):
-        return LEFT + 10 + (RIGHT - LEFT - 20) * hit / (len(EFFICIENCY) - 1)
-
-    def y(share):
-        return bottom + (TOP - bottom) * share / 100
-    d.text(8, 20, "Requests as they come, warps of 32", "strong")
-    for share in range(0, 101, 20):
-        d.line([(LEFT, y(share)), (RIGHT, y(share))], "grid")
-        d.text(LEFT - 6, y(share) + 4, f"{share} %", "small soft", "end")
-    for hit in range(len(EFFICIENCY)):
-        d.text(x(hit), bottom + 17, f"{hit + 1}", "small soft", "middle")
-    d.line([(LEFT, TOP), (LEFT, bottom), (RIGHT, bottom)], "axis")
-    d.text((LEFT + RIGHT) / 2, bottom + 36, "hit", "", "middle")
-    curves["the paper"] = EFFICIENCY
-    d.line([(x(hit), y(share)) for hit, share in enumerate(EFFICIENCY)], "guide")
-    for k, (name, shares) in enumerate(curves.items()):
-        if name != "the paper":
-            d.line([(x(hit), y(share)) for hit, share in enumerate(shares)], f"line s{k}")
-        for hit, share in enumerate(shares):
-            d.mark("diamond" if name == "the paper" else "disc", x(hit), y(share), f"s{k}",
-                   f"{name}, hit {hit + 1}: {share:.0f} %")
-    for place, name in zip(apart([y(shares[-1]) for shares in curves.values()], 15), curves):
-        d.text(RIGHT + 4, place + 4, name, "small")
-    return d.render()

@@ -60,7 +60,6 @@ PLOTS = {
     "accuracy": lambda *paths: accuracy_report.plot(paths),
     "speedups": speedups.plot,
     "scaling": scaling.plot,
-    "scene-efficiency": scenes.plot,
     "roofline": roofline.plot,
     "efficiency": hits.plot,
 }
