@@ -82,7 +82,7 @@ class key_counts {
       }
     }
 #endif
-    in_turn(compared, size, [keys](std::uint32_t* counts, request_index i) { ++counts[keys[i]]; });
+    in_turn(compared, size, [keys](std::uint32_t* counts, std::size_t i) { ++counts[keys[i]]; });
   }
 
   std::uint32_t of(shader_id k) const {
@@ -91,29 +91,30 @@ class key_counts {
     return sum;
   }
 
-  /// Puts the numbers `first` to `first + size - 1` to the places of their keys, those that were
-  /// added, in this order: next[k] is the place of the next number whose key is k, before and
-  /// after. Counts are places then.
+  /// Puts the numbers `first` to `first + size - 1` to the places of their keys, in this order:
+  /// next[k] is the place of the next number whose key is k, before and after. The keys are those
+  /// of the one call of `add` before; counts are places then.
   template <class Number>
   void place(key const* keys, request_index size, Number first, std::uint32_t* next,
              Number* places) {
     for (shader_id k = 0; k <= Shaders; ++k) {
       for (auto& counts : of_part_) counts[k] = std::exchange(next[k], next[k] + counts[k]);
     }
-    in_turn(0, size, [=](std::uint32_t* next_of_part, request_index i) {
+    in_turn(0, size, [=](std::uint32_t* next_of_part, std::size_t i) {
       places[next_of_part[keys[i]]++] = static_cast<Number>(first + i);
     });
   }
 
  private:
-  // Calls `f(counts, i)` for every key i from number `begin` of its part on.
+  // Calls `f(counts, i)` for every key i from number `begin` of its part on. In 64 bits, which do
+  // not wrap: clang keeps a counter for each part otherwise, in memory.
   template <class Function>
-  void in_turn(request_index begin, request_index size, Function const& f) {
-    request_index const length = size / Parts;
-    for (request_index i = begin; i < length; ++i) {
-      for (request_index p = 0; p < Parts; ++p) f(of_part_[p], p * length + i);
+  void in_turn(std::size_t begin, std::size_t size, Function const& f) {
+    std::size_t const length = size / Parts;
+    for (std::size_t i = begin; i < length; ++i) {
+      for (std::size_t p = 0; p < Parts; ++p) f(of_part_[p], p * length + i);
     }
-    for (request_index i = Parts * length; i < size; ++i) f(of_part_[Parts - 1], i);
+    for (std::size_t i = Parts * length; i < size; ++i) f(of_part_[Parts - 1], i);
   }
 
 #if DEFERRED_SHADE_HAS_GNU
@@ -179,7 +180,7 @@ void place_by_keys(Key const* keys, request_index size, Number first, std::uint3
     }
   };
   // Those that are the same take one look at `next`, where each would wait for the one before.
-  for (bool const some = quarters_same(keys, size) > 0; some && size - i >= key_step;) {
+  for (bool const coherent = quarters_same(keys, size) > 0; coherent && size - i >= key_step;) {
     if (are_same(keys + i)) {
       Number* const here = places + next[keys[i]];
       next[keys[i]] += key_step;
