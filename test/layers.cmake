@@ -2,7 +2,7 @@
 # cmake -D SOURCE_DIR=... -P layers.cmake
 # Checks that every header of the library includes only headers of lower layers, by <deferred_shade/...>,
 # so that there is no cycle and no include among siblings; that the umbrella reaches every header but cuda/nvtx.hpp,
-# which is optional; that no file of code is longer than 250 lines; and that the library stays under 2,000 lines of
+# which is optional; that no file of code is longer than 250 lines; and that the library has at most 2,000 lines of
 # code, and so what is tuned for CUDA, which is counted apart.
 
 cmake_minimum_required(VERSION 3.22)

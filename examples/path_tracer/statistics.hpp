@@ -42,6 +42,18 @@ inline constexpr bool keeps_order =
     std::is_same_v<Schedule, deferred_shade::implicit_serialization> ||
     std::is_same_v<Schedule, deferred_shade::explicit_serialization>;
 
+/// A schedule whose order on one thread of a CPU is the order of the grouping. A switch over a
+/// grouping has each thread take shares of every shader.
+template <class Schedule>
+Schedule in_grouped_order(Schedule const& schedule) {
+  return schedule;
+}
+template <template <class> class Schedule>
+Schedule<deferred_shade::explicit_serialization> in_grouped_order(
+    Schedule<deferred_shade::implicit_serialization> const&) {
+  return {};
+}
+
 /// The requests of a wave in the order in which lanes take them: that of one thread of a CPU, which
 /// is also that of a GPU but for the end of a shader's requests, where a GPU starts a fresh warp.
 template <class Schedule>
@@ -55,7 +67,7 @@ std::vector<deferred_shade::request_index> execution_order(Schedule const& sched
     std::iota(order.begin(), order.end(), 0u);
   } else {
     deferred_shade::workspace scratch{thrust::cpp::par};
-    deferred_shade::shade(thrust::cpp::par, schedule, paths, ids,
+    deferred_shade::shade(thrust::cpp::par, in_grouped_order(schedule), paths, ids,
                           uniform_table(recording_shader{&order}), scratch);
   }
   return order;

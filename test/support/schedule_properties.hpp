@@ -149,7 +149,7 @@ template <class Schedule>
 void check_stable(Schedule const& schedule = {}) {
   std::uint32_t const seed = run_seed();
   CAPTURE(seed);
-  std::uint32_t const n = 50021;
+  std::uint32_t const n = 200021;  // more than a dozen blocks of a CPU
   auto const ids = make_ids<std::uint8_t>(layout::random, n, 3, seed);
   std::vector<std::uint32_t> order[3];
   auto const append = [&order](std::uint32_t id) {

@@ -3,7 +3,6 @@
 
 #include <thrust/for_each.h>
 #include <thrust/iterator/counting_iterator.h>
-#include <algorithm>
 #include <cstddef>
 
 #include <deferred_shade/blocks.hpp>
@@ -26,20 +25,20 @@ void run_implicit(host_system, Policy const& exec, request_index n, Ids ids,
       [ids, &shaders](request_index i) { shaders.run(shader_of(ids, i, sizeof...(Shaders)), i); });
 }
 
-// The switch is on the segment that holds the request, which a block finds once and then follows.
+// The switch is on the segment that holds the request. Every block has its share of every segment,
+// so that no worker has all requests of the slowest shader.
 template <class Policy, class... Shaders>
 void run_implicit(host_system, Policy const& exec, grouping group,
                   shader_table<Shaders...> const& shaders) {
-  request_index const* const ends = group.offsets + 1;
-  block_partition const blocks(group.offsets[sizeof...(Shaders)], 0);
+  block_partition const blocks(group.offsets[sizeof...(Shaders)], sizeof...(Shaders));
   for_each_block(exec, blocks, [=, &shaders](std::size_t b) {
-    auto const begin = static_cast<request_index>(blocks.begin(b));
-    auto const end = static_cast<request_index>(blocks.end(b));
-    auto id =
-        static_cast<shader_id>(std::upper_bound(ends, ends + sizeof...(Shaders), begin) - ends);
-    for (request_index p = begin; p < end; ++p) {
-      while (p >= ends[id]) ++id;
-      shaders.run(id, group.permutation[p]);
+    for (shader_id k = 0; k < sizeof...(Shaders); ++k) {
+      std::size_t const first = group.offsets[k];
+      std::size_t const size = group.offsets[k + 1] - first;
+      std::size_t const end = first + size * (b + 1) / blocks.count();
+      for (std::size_t p = first + size * b / blocks.count(); p < end; ++p) {
+        shaders.run(k, group.permutation[p]);
+      }
     }
   });
 }
