@@ -12,7 +12,7 @@ namespace {
 using json = nlohmann::ordered_json;
 
 /// Perfetto takes the thread with the number of its process for the main one and shows it first,
-/// and Linux has no two threads of the same number.
+/// and numbers of threads for unique over processes, as on Linux.
 std::size_t host_of(std::size_t process) { return process; }
 std::size_t device_of(std::size_t process) { return 1000 + process; }
 
