@@ -48,11 +48,13 @@ grouping bucket_grouping(host_system, Policy const& exec, request_index n, Ids i
     for (shader_id k = 0; k < columns; ++k) counts[b * columns + k] = of_block.of(k);
   });
   scan_columns(blocks, columns, counts, offsets);
+  // The first-level cache has room for what lies ahead of so many shaders.
+  constexpr cache ahead = Shaders <= 64 ? cache::first_level : cache::second_level;
   for_each_block(exec, blocks, [=, counts = counts, permutation = permutation](std::size_t b) {
     for_each_chunk<Shaders>(ids, blocks.begin(b), blocks.end(b),
                             [&](auto const* keys, request_index first, request_index size) {
-                              place_by_keys<(Shaders >= 16)>(keys, size, first,
-                                                             counts + b * columns, permutation);
+                              place_by_keys<ahead>(keys, size, first, counts + b * columns,
+                                                   permutation);
                             });
   });
   return {permutation, offsets, n};

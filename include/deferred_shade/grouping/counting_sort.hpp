@@ -55,10 +55,10 @@ using byte_vector = std::uint8_t __attribute__((vector_size(16)));
 using byte_vector = std::uint8_t;
 #endif
 
-/// Whether keys are counted by comparing vectors of them with one shader after the other: for few
-/// shaders less work than to look at the keys one by one.
+/// Whether keys are counted by comparing vectors of them with every shader in turn: for few shaders
+/// less work than to look at the keys one by one.
 template <shader_id Shaders>
-inline constexpr bool are_compared = Shaders <= 3 * sizeof(byte_vector) / 8;
+inline constexpr bool are_compared = Shaders <= sizeof(byte_vector);
 
 /// The parts of a sequence that are counted in turn. Neighbours often are the same, and the one
 /// increment waits for the other; but the counters are to stay in the first-level cache.
@@ -122,21 +122,26 @@ class key_counts {
   // has counted.
   static request_index add_vectors(key const* keys, request_index size, std::uint32_t* counts_of) {
     constexpr request_index width = sizeof(byte_vector);
+    constexpr shader_id together = 4;  // shaders that one load of keys is compared with
     request_index i = 0;
     while (size - i >= width) {
       request_index const rows = std::min((size - i) / width, request_index{255});
       std::uint32_t none = rows * width;
-      for (shader_id k = 0; k < Shaders; ++k) {
-        byte_vector counts{};
+      for (shader_id k = 0; k < Shaders; k += together) {
+        byte_vector counts[together] = {};
         for (request_index row = 0; row < rows; ++row) {
           byte_vector some;
           std::memcpy(&some, keys + i + row * width, width);
-          counts -= reinterpret_cast<byte_vector>(some == static_cast<std::uint8_t>(k));
+          for (shader_id j = 0; j < together; ++j) {
+            counts[j] -= reinterpret_cast<byte_vector>(some == static_cast<std::uint8_t>(k + j));
+          }
         }
-        std::uint32_t sum = 0;
-        for (request_index lane = 0; lane < width; ++lane) sum += counts[lane];
-        counts_of[k] += sum;
-        none -= sum;
+        for (shader_id j = 0; j < std::min(together, Shaders - k); ++j) {
+          std::uint32_t sum = 0;
+          for (request_index lane = 0; lane < width; ++lane) sum += counts[j][lane];
+          counts_of[k + j] += sum;
+          none -= sum;
+        }
       }
       counts_of[Shaders] += none;
       i += rows * width;
@@ -165,10 +170,10 @@ request_index quarters_same(Key const* keys, request_index size) {
   return looks == 0 ? 0 : 4 * same / looks;
 }
 
-/// The same as key_counts::place with no counts of these keys, one after the other. With
-/// `Prefetch`, what is behind a place is prefetched: for places that are too many, and too far from
-/// each other, for the processor to do so by itself.
-template <bool Prefetch, class Key, class Number>
+/// The same as key_counts::place with no counts of these keys, one after the other. What is behind
+/// a place is prefetched into the cache `Ahead`, none for places that are near each other: before
+/// the processor does so by itself, which it does not for too many.
+template <cache Ahead, class Key, class Number>
 void place_by_keys(Key const* keys, request_index size, Number first, std::uint32_t* next,
                    Number* places) {
   request_index i = 0;
@@ -176,7 +181,7 @@ void place_by_keys(Key const* keys, request_index size, Number first, std::uint3
     for (; i < end; ++i) {
       std::uint32_t const place = next[keys[i]]++;
       places[place] = static_cast<Number>(first + i);
-      if constexpr (Prefetch) prefetch<true>(places, place + 128 / sizeof(Number));
+      prefetch<Ahead, true>(places, place + 128 / sizeof(Number));
     }
   };
   // Those that are the same take one look at `next`, where each would wait for the one before.
@@ -184,7 +189,7 @@ void place_by_keys(Key const* keys, request_index size, Number first, std::uint3
     if (are_same(keys + i)) {
       Number* const here = places + next[keys[i]];
       next[keys[i]] += key_step;
-      if constexpr (Prefetch) prefetch<true>(here, 320 / sizeof(Number));
+      prefetch<Ahead, true>(here, 320 / sizeof(Number));
       for (request_index j = 0; j < key_step; ++j) here[j] = static_cast<Number>(first + i + j);
       i += key_step;
     } else {

@@ -62,7 +62,7 @@ void counting_sort(Ids const& ids, request_index first, request_index size,
   result.offsets[0] = next[0] = 0;
   for (shader_id k = 0; k < Shaders; ++k) next[k + 1] = next[k] + counts.of(k);
   if (quarters_same(keys, size) >= 3) {
-    place_by_keys<false>(keys, size, std::uint16_t{0}, next, result.order);
+    place_by_keys<cache::none>(keys, size, std::uint16_t{0}, next, result.order);
   } else {
     counts.place(keys, size, std::uint16_t{0}, next, result.order);
   }
