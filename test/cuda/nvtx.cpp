@@ -2,6 +2,8 @@
 // What a tool that attaches to NVTX sees. Needs NVTX's headers, but neither a GPU nor nvcc.
 #include <deferred_shade/cuda/nvtx.hpp>
 
+#include <stdlib.h>  // unsetenv
+
 #include <cstdint>
 #include <deferred_shade/deferred_shade.hpp>
 #include <string>
@@ -42,7 +44,11 @@ int attach(NvtxGetExportTableFunc_t table) {
   *functions[NVTX_CBID_CORE2_DomainRangePop] = reinterpret_cast<NvtxFunctionPointer>(&pop);
   return 1;
 }
-[[maybe_unused]] bool const attached = (InitializeInjectionNvtx2_fnptr = &attach) != nullptr;
+[[maybe_unused]] bool const attached = [] {
+  unsetenv("NVTX_INJECTION64_PATH");  // another tool's, which compute-sanitizer sets: it would win
+  InitializeInjectionNvtx2_fnptr = &attach;
+  return true;
+}();
 
 struct nothing {
   DEFERRED_SHADE_HOST_DEVICE void operator()(ds::request_index) const {}
