@@ -19,6 +19,17 @@
 /// schedules.cpp.
 namespace bench {
 
+/// The cell that runs, and whether it runs for a profiler (`--profile`): it calls what it measures
+/// once, and its time means nothing.
+struct current_cell {
+  std::string name;
+  bool is_profiled = false;
+};
+inline current_cell& current() {
+  static current_cell cell;
+  return cell;
+}
+
 /// Values of the axes; `--quick` takes a few of them.
 struct axes {
   /// The number of requests: for a GPU, from what fits in its cache to what does not.
@@ -40,9 +51,7 @@ inline axes schedule_axes(bool quick) {
 
 inline axes grouping_axes(bool quick) {
   if (quick) return {on_cuda ? std::vector{1_mi, 16_mi} : std::vector{1_mi / 8}, {1, 32}};
-  axes all{{1_mi, 8_mi, 16_mi}, {1, 32}};
-  if (on_cuda) all.sizes.push_back(64_mi);
-  return all;
+  return {{1_mi, 8_mi, 16_mi, 64_mi}, {1, 32}};
 }
 
 /// The end of a cell's name.
@@ -57,6 +66,13 @@ inline std::string name_of(std::size_t n, std::uint32_t run) {
 /// half a second for each of thousands of cells and report their mean, which one hiccup spoils.
 template <class Function>
 void measure(benchmark::State& state, std::size_t requests, Function const& call) {
+  if (current().is_profiled) {
+    for (auto _ : state) {
+      profile(current().name, call);
+      state.SetIterationTime(1);
+    }
+    return;
+  }
   int const warm_ups = on_cuda ? 3 : 1;
   int const timed = on_cuda ? 15 : 5;
   for (auto _ : state) {
@@ -90,7 +106,8 @@ inline bool check(benchmark::State& state, bool good) {
 template <class Cell>
 void add_cell(std::string const& name, Cell cell) {
   benchmark::RegisterBenchmark(name.c_str(),
-                               [cell](benchmark::State& state) {
+                               [name, cell](benchmark::State& state) {
+                                 current().name = name;
                                  try {
                                    cell(state);
                                  } catch (std::exception const& error) {
@@ -143,10 +160,15 @@ inline void add_context() {
 template <class Function>
 int run(int argc, char** argv, Function const& register_cells) {
   std::vector<char*> arguments(argv, argv + argc);
-  auto const quick = std::remove_if(arguments.begin() + 1, arguments.end(),
-                                    [](char const* a) { return std::strcmp(a, "--quick") == 0; });
-  bool const is_quick = quick != arguments.end();
-  arguments.erase(quick, arguments.end());
+  auto const take = [&arguments](char const* flag) {
+    auto const found = std::remove_if(arguments.begin() + 1, arguments.end(),
+                                      [flag](char const* a) { return std::strcmp(a, flag) == 0; });
+    bool const is_there = found != arguments.end();
+    arguments.erase(found, arguments.end());
+    return is_there;
+  };
+  bool const is_quick = take("--quick");
+  current().is_profiled = take("--profile");
   int count = static_cast<int>(arguments.size());
   benchmark::Initialize(&count, arguments.data());
   if (benchmark::ReportUnrecognizedArguments(count, arguments.data())) return 2;

@@ -11,10 +11,12 @@
 #include <string>
 #include <vector>
 #ifdef __CUDACC__
+#include <cuda_profiler_api.h>
 #include <cuda_runtime.h>
 #include <thrust/system/cuda/error.h>
 #include <thrust/system/cuda/execution_policy.h>
 #include <thrust/system_error.h>
+#include <nvtx3/nvtx3.hpp>
 #else
 #include <thrust/execution_policy.h>
 #endif
@@ -98,6 +100,19 @@ std::vector<double> seconds_per_call(Function const& f, int calls) {
   return seconds;
 }
 
+/// Calls `f` once, as the range `name` of what a profiler collects that waits for it to begin.
+template <class Function>
+void profile(std::string const& name, Function const& f) {
+  check_cuda(cudaDeviceSynchronize());
+  check_cuda(cudaProfilerStart());
+  {
+    nvtx3::scoped_range const range{name};
+    f();
+    check_cuda(cudaDeviceSynchronize());
+  }
+  check_cuda(cudaProfilerStop());
+}
+
 /// What the times were measured on.
 inline std::string machine_name() {
   int device = 0;
@@ -130,6 +145,12 @@ std::vector<double> seconds_per_call(Function const& f, int calls) {
     seconds.push_back(std::chrono::duration<double>(clock::now() - begin).count());
   }
   return seconds;
+}
+
+/// Calls `f` once: profilers of CPUs need no help.
+template <class Function>
+void profile(std::string const&, Function const& f) {
+  f();
 }
 
 /// What the times were measured on.

@@ -3,11 +3,12 @@
 """The five scenes that have as many shaders as those of the paper, rendered by the example path tracer.
 
     benchmark/scenes.py efficiency PATH_TRACER docs/results/scenes-efficiency.json
-    benchmark/scenes.py times PATH_TRACER docs/results/scenes-cpu.json --machine WORDS
+    benchmark/scenes.py times PATH_TRACER docs/results/scenes-cpu.json --machine WORDS [--backend cuda]
     benchmark/scenes.py pictures PATH_TRACER docs/scenes
 
 `efficiency` counts, and measures no time: the heterogeneous efficiency of every schedule at the first hits, and the
-requests of each shader; no machine changes it. `times` renders every scene by every schedule, several times. Both are for
+requests of each shader; no machine changes it. `times` renders every scene by every schedule, several times, on a GPU
+larger pictures. Both are for
 benchmark/report.py. `pictures` writes a picture of each scene, all in one row, and for each a sheet of heat maps: the
 first hits from left to right, a row for each schedule of PICTURED, of every fourth pixel across and down of what
 `efficiency` counts.
@@ -27,6 +28,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 PICTURED = ("implicit", "local-bitonic")
 COUNTED = {"width": 1280, "height": 720, "spp": 1, "max-depth": len(EFFICIENCY)}  # one wave, a path for each pixel
 TIMED = {"width": 480, "height": 270, "spp": 1, "max-depth": 8}
+TIMED_ON_CUDA = {"width": 1280, "height": 720, "spp": 8, "max-depth": 8}
 SHOWN = {"width": 256, "height": 144, "spp": 256, "max-depth": 16}
 STEP = 4
 
@@ -90,10 +92,13 @@ def write_pictures(arguments):
 
 def write_reports(arguments):
     is_timed = arguments.what == "times"
+    settings = COUNTED
+    if is_timed:
+        settings = {**(TIMED_ON_CUDA if arguments.backend == "cuda" else TIMED), "backend": arguments.backend}
     result = {"commit": commit_of(ROOT), "machine": arguments.machine, "reports": []}
     for scene in SCENES:
         for _ in range(arguments.repetitions if is_timed else 1):
-            report = report_of(arguments.path_tracer, scene, TIMED if is_timed else COUNTED)
+            report = report_of(arguments.path_tracer, scene, settings)
             result["reports"].append(keep(report, ["schedule", "seconds"], ["group_ms", "total_ms"]) if is_timed else
                                      keep(report, ["schedule"], ["requests", "efficiency", "first_wave_by_shader"]))
         write(arguments.output, result)  # what is measured is not lost if the rest is interrupted
@@ -106,6 +111,7 @@ def main():
     parser.add_argument("path_tracer")
     parser.add_argument("output", type=pathlib.Path)
     parser.add_argument("--machine", default="any", help="with times: its name in words")
+    parser.add_argument("--backend", default="omp", help="with times: the path tracer's")
     parser.add_argument("--repetitions", type=int, default=5, help="with times")
     arguments = parser.parse_args()
     (write_pictures if arguments.what == "pictures" else write_reports)(arguments)

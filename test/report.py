@@ -30,8 +30,8 @@ FAULTS = [
     (RAW + "h200-schedules.json", '"real_time"', '"time"', r"md:\d+: .*h200-schedules\.json.*has no 'real_time'"),
     (RAW + "h200-schedules.json", "local-bitonic", "bitonic", r"md:\d+: .*h200-schedules\.json.*no 'local-bitonic'"),
     (RAW + "h200-schedules.json", r"\A", "x", r"md:\d+: .*h200-schedules\.json.*JSONDecodeError"),
-    (RAW + "h200-short-index.txt", "memory read, MB", "memory, MB", r"md:\d+: .*no 'memory read, MB'"),
-    (RAW + "h200-short-index.txt", "packed", "peaked", r"md:\d+: .*h200-short-index\.txt.*no 'packed'"),
+    (RAW + "h200-counters.json", '"bytes_read"', '"bytes"', r"md:\d+: .*h200-counters\.json.*no 'bytes_read'"),
+    (RAW + "h200-counters.json", "/switch/", "/swatch/", r"md:\d+: .*h200-counters\.json.*no \('3 simple', 'switch', 1\)"),
     (RAW + "h200-bounces-1.json", '"efficiency"', '"share"', r"md:\d+: .*h200-bounces-1\.json.*no 'efficiency'"),
     (RAW + "compile-time-gcc.json", '"peak_kib"', '"kib"', r"md:\d+: .*compile-time-gcc\.json.*no 'peak_kib'"),
 ]

@@ -5,10 +5,15 @@ import statistics
 
 from .hits import hits
 from .markdown import table
-from .paper import EFFICIENCY, SCENES
+from .paper import EFFICIENCY, SCENES, SCHEDULES
 
 ORDERS = {"implicit": "as they come", "local-bitonic": "sorted in blocks of 256", "bucket+explicit": "grouped"}
 PROCEDURAL = ("marble", "wood")
+
+
+def plain(milliseconds):
+    """Whole ones, and of less than ten the hundredths."""
+    return f"{milliseconds:.0f}" if milliseconds >= 10 else f"{milliseconds:.2f}"
 
 
 def read(path):
@@ -49,24 +54,39 @@ def efficiency(path):
     return table(["scene", "requests"] + [f"hit {k + 1}" for k in range(len(EFFICIENCY))], rows)
 
 
-def times(path):
-    """Shading with grouping, every schedule, medians; and what the best gains over unsorted implicit serialisation."""
-    result = read(path)
-    found, pictures = {}, {}
+def measured(path):
+    """The file, and milliseconds by (scene, schedule), run by run: of shading with grouping a sample of each pixel, and
+    of all of a picture."""
+    result, found, pictures = read(path), {}, {}
+    samples = result["reports"][0]["settings"]["spp"]
     for report in result["reports"]:
         for run in report["schedules"]:
             key = report["scene"], run["schedule"]
-            found.setdefault(key, []).append(sum(b["total_ms"] for b in run["bounces"]))
-            pictures.setdefault(key, []).append(1e3 * run["seconds"])
+            found.setdefault(key, []).append(sum(b["total_ms"] for b in run["bounces"]) / samples)
+            pictures.setdefault(key, []).append(1e3 * run["seconds"] / samples)
+    return result, found, pictures
+
+
+def speedups(path, names):
+    """{scene: how many times as fast as unsorted implicit serialisation the best of some schedules shades it}"""
+    _, found, _ = measured(path)
+    middle = {key: statistics.median(values) for key, values in found.items()}
+    return {s: middle[s, "implicit"] / min(middle[s, name] for name in names) for s in dict.fromkeys(k[0] for k in found)}
+
+
+def times(path):
+    """Every schedule, medians; and what the best gains over unsorted implicit serialisation."""
+    result, found, pictures = measured(path)
     middle = {key: statistics.median(values) for key, values in found.items()}
     spread = {key: (max(values) - min(values)) / middle[key] for key, values in found.items()}
     scenes, names = (list(dict.fromkeys(key[k] for key in found)) for k in (0, 1))
-    rows = [[f"`{name}`"] + [f"{middle[s, name]:.0f} ± {50 * spread[s, name]:.0f} %" for s in scenes] for name in names]
-    best = [min(names, key=lambda name, s=s: middle[s, name]) for s in scenes]
-    rows.append(["*fastest*"] + [f"`{name}`" for name in best])
-    rows.append(["*as fast as `implicit`*"] + [f"{middle[s, 'implicit'] / middle[s, name]:.2f} times"
-                                               for s, name in zip(scenes, best)])
-    rows.append(["*the same of the paper*"] + [scene.words() for scene in SCENES])
+    rows = [[f"`{name}`"] + [f"{plain(middle[s, name])} ± {50 * spread[s, name]:.0f} %" for s in scenes] for name in names]
+    for words, of in (("", names), ("the paper's ", [name for name in names if name in SCHEDULES])):
+        best = [min(of, key=lambda name, s=s: middle[s, name]) for s in scenes]
+        rows.append([f"*{words}fastest*"] + [f"`{name}`" for name in best])
+        rows.append(["*as fast as `implicit`*"] + [f"{middle[s, 'implicit'] / middle[s, name]:.2f} times"
+                                                   for s, name in zip(scenes, best)])
+    rows.append(["*that in the paper*"] + [scene.words() for scene in SCENES])
     rows.append(["*of the picture's time*"] + [
         f"{100 * middle[s, 'implicit'] / statistics.median(pictures[s, 'implicit']):.0f} %" for s in scenes])
     settings, runs = result["reports"][0]["settings"], len(next(iter(found.values())))

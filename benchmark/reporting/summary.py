@@ -7,6 +7,7 @@ from .markdown import table
 from .paper import EFFICIENCY, GROUPINGS, LATER, SCENES, SCHEDULES, unsorted
 from .roofline import chosen, roofs
 from .scaling import growth, series
+from .scenes import speedups
 from .schedules import Cells
 
 ALMOST = 0.9  # of all cells: "almost always"
@@ -61,8 +62,8 @@ def balance(counters, grouping):
     """Where the roofs of memory and of instructions meet, and whether short shaders lie on the one side of it and
     long ones on the other."""
     memory, _, issue = roofs(counters, grouping)
-    kernels = dict(chosen(counters))
-    held = (kernels["oracle, 6 simple"].intensity() < issue / memory < kernels["oracle, 11 moderate"].intensity())
+    simple, moderate = (chosen(counters)[shaders, "oracle-launches"] for shaders in ("6 simple", "11 moderate"))
+    held = simple.intensity() < issue / memory < moderate.intensity()
     return f"{issue / memory:.2f} instructions per byte", "holds" if held else "no longer holds"
 
 
@@ -76,8 +77,9 @@ def efficiencies(*paths):
 
 def summary(gpu, cpu, gpu_grouping, cpu_grouping, cpu_scan, counters, *paths, gpu_n, cpu_n, n):
     """Of a GPU and a CPU: speedups of index shaders at so many requests, least to most over all lengths of runs;
-    grouping of n, the scan of a CPU from a report of its own; and efficiencies of some reports of the path tracer,
-    which no machine changes."""
+    grouping of n, the scan of a CPU from a report of its own; of paths the first two, the scenes rendered by either;
+    and the others, efficiencies of some reports of the path tracer, which no machine changes."""
+    rendered, paths = paths[:2], paths[2:]
     both = [(Cells(Report(path).times), int(size)) for path, size in ((gpu, gpu_n), (cpu, cpu_n))]
     rows = []
 
@@ -88,6 +90,9 @@ def summary(gpu, cpu, gpu_grouping, cpu_grouping, cpu_scan, counters, *paths, gp
             found = [scene(cells, size, s.name, names) for cells, size in both]
             add(f"{s.name}, {whose}", s.words(),
                 [(f"{span(values)} times as fast", verdict([(v > 1) == s.pays() for v in values])) for values in found])
+        found = [speedups(path, SCHEDULES)[s.name] for path in rendered]
+        add(f"{s.name}, a scene rendered by the paper's schedules", s.words(),
+            [(f"{value:.2f} times as fast", verdict([(value > 1) == s.pays()])) for value in found])
     add("efficiency of the first four hits", ", ".join(map(str, EFFICIENCY)) + " %", [efficiencies(*paths)] * 2)
     add("grouped, explicit beats implicit", "almost always", [explicit_wins(cells) for cells, _ in both])
     add("explicit over unordered requests, to grouped ones", "large penalties", [penalty(*one) for one in both])

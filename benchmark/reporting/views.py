@@ -8,7 +8,7 @@ import effects
 import ratios
 import registers
 
-from . import claims, compiling, hits, means, roofline, scaling, scenes, several, speedups, summary
+from . import claims, compiling, counters, hits, means, roofline, scaling, scenes, several, speedups, summary
 from .google_benchmark import Report
 
 
@@ -54,6 +54,9 @@ VIEWS = {
     "local": claims.local,
     "scaling": claims.scaling,
     "roofs": roofline.counters,
+    "counters": counters.counters,
+    "counter": counters.counter,
+    "profiled": counters.provenance,
 }
 PLOTS = {
     "effects": lambda *paths: effects.plot(paths),
