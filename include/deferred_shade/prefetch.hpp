@@ -9,19 +9,20 @@
 
 namespace deferred_shade::detail {
 
-/// Where to: the caches of a core, as the instructions for it count them.
-enum class cache { none = 0, second_level = 2, first_level = 3 };
+/// Where to: the caches of a core, as the compilers' built-in function counts them.
+enum class cache { none, second_level = 2, first_level = 3 };
 
 /// Brings what lies at pointer[i] near to this core, or the place for what will be written there.
-/// Knows pointers only; the address need not be valid.
-template <cache To, bool Write, class Pointer>
+/// Knows pointers only; the address need not be valid. It is never said that something will be
+/// written: the instruction for that knows no second-level cache.
+template <cache To, class Pointer>
 void prefetch(Pointer const& pointer, request_index i) noexcept {
 #if DEFERRED_SHADE_HAS_GNU
   if constexpr (To != cache::none && std::is_pointer_v<Pointer>) {
     using record = std::remove_pointer_t<Pointer>;
     if constexpr (std::is_object_v<record>) {
       auto const address = reinterpret_cast<std::uintptr_t>(pointer) + sizeof(record) * i;
-      __builtin_prefetch(reinterpret_cast<void const*>(address), Write, static_cast<int>(To));
+      __builtin_prefetch(reinterpret_cast<void const*>(address), 0, static_cast<int>(To));
     }
   }
 #endif

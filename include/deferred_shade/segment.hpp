@@ -55,8 +55,8 @@ inline constexpr std::size_t packed_lanes = std::min(std::size_t{256},
 template <class Shader>
 void prefetch_records(Shader const& shader, request_index i) noexcept {
   if constexpr (is_record_shader<Shader>) {
-    prefetch<cache::second_level, false>(shader.source, i);
-    prefetch<cache::second_level, true>(shader.sink, i);
+    prefetch<cache::second_level>(shader.source, i);
+    prefetch<cache::second_level>(shader.sink, i);
   }
 }
 

@@ -64,16 +64,20 @@ void check_table() {
       ds::detail::key_counts<Shaders> counts;
       counts.add(keys.data(), size);
       counts.add(keys.data(), size / 2);
+      ds::detail::key_counts<Shaders, 1> at_once;
+      at_once.add(keys.data(), size);
       bool right = true;
       for (std::uint32_t i = 0; i < size; ++i) right &= keys[i] == std::min(ids[i + 3], Shaders);
       for (std::uint32_t k = 0; k <= Shaders; ++k) {
         auto const half = keys.begin() + size / 2;
         right &= counts.of(k) ==
                  std::count(keys.begin(), keys.end(), k) + std::count(keys.begin(), half, k);
+        right &= at_once.of(k) == std::count(keys.begin(), keys.end(), k);
       }
       REQUIRE(right);
       check_places<Shaders, ds::detail::cache::none>(keys, std::uint16_t{0});
       check_places<Shaders, ds::detail::cache::first_level>(keys, std::uint32_t{4000000000});
+      check_places<Shaders, ds::detail::cache::second_level>(keys, std::uint32_t{0});
     }
   }
 }

@@ -51,14 +51,15 @@ using byte_vector = std::uint8_t __attribute__((vector_size(32)));
 #else
 using byte_vector = std::uint8_t __attribute__((vector_size(16)));
 #endif
-#else
-using byte_vector = std::uint8_t;
-#endif
 
 /// Whether keys are counted by comparing vectors of them with every shader in turn: for few shaders
 /// less work than to look at the keys one by one.
 template <shader_id Shaders>
 inline constexpr bool are_compared = Shaders <= sizeof(byte_vector);
+#else
+template <shader_id Shaders>
+inline constexpr bool are_compared = false;
+#endif
 
 /// The parts of a sequence that are counted in turn. Neighbours often are the same, and the one
 /// increment waits for the other; but the counters are to stay in the first-level cache.
@@ -119,7 +120,7 @@ class key_counts {
 
 #if DEFERRED_SHADE_HAS_GNU
   // Subtracts the answers, which are -1 where a key is that of the shader. Returns how many keys it
-  // has counted.
+  // has counted. Where the loops over `together` are not unrolled, g++ keeps the counts in memory.
   static request_index add_vectors(key const* keys, request_index size, std::uint32_t* counts_of) {
     constexpr request_index width = sizeof(byte_vector);
     constexpr shader_id together = 4;  // shaders that one load of keys is compared with
@@ -132,11 +133,14 @@ class key_counts {
         for (request_index row = 0; row < rows; ++row) {
           byte_vector some;
           std::memcpy(&some, keys + i + row * width, width);
+#pragma GCC unroll 4
           for (shader_id j = 0; j < together; ++j) {
             counts[j] -= reinterpret_cast<byte_vector>(some == static_cast<std::uint8_t>(k + j));
           }
         }
-        for (shader_id j = 0; j < std::min(together, Shaders - k); ++j) {
+#pragma GCC unroll 4
+        for (shader_id j = 0; j < together; ++j) {
+          if (k + j >= Shaders) break;
           std::uint32_t sum = 0;
           for (request_index lane = 0; lane < width; ++lane) sum += counts[j][lane];
           counts_of[k + j] += sum;
@@ -170,9 +174,9 @@ request_index quarters_same(Key const* keys, request_index size) {
   return looks == 0 ? 0 : 4 * same / looks;
 }
 
-/// The same as key_counts::place with no counts of these keys, one after the other. What is behind
-/// a place is prefetched into the cache `Ahead`, none for places that are near each other: before
-/// the processor does so by itself, which it does not for too many.
+/// The same as key_counts::place with no counts of these keys, one after the other. What lies
+/// behind a place is prefetched into the cache `Ahead`: processors do so by themselves too late,
+/// and for many places not at all. `none` is for places that are near each other.
 template <cache Ahead, class Key, class Number>
 void place_by_keys(Key const* keys, request_index size, Number first, std::uint32_t* next,
                    Number* places) {
@@ -181,7 +185,7 @@ void place_by_keys(Key const* keys, request_index size, Number first, std::uint3
     for (; i < end; ++i) {
       std::uint32_t const place = next[keys[i]]++;
       places[place] = static_cast<Number>(first + i);
-      prefetch<Ahead, true>(places, place + 128 / sizeof(Number));
+      prefetch<Ahead>(places, place + 128 / sizeof(Number));
     }
   };
   // Those that are the same take one look at `next`, where each would wait for the one before.
@@ -189,7 +193,7 @@ void place_by_keys(Key const* keys, request_index size, Number first, std::uint3
     if (are_same(keys + i)) {
       Number* const here = places + next[keys[i]];
       next[keys[i]] += key_step;
-      prefetch<Ahead, true>(here, 320 / sizeof(Number));
+      prefetch<Ahead>(here, 320 / sizeof(Number));
       for (request_index j = 0; j < key_step; ++j) here[j] = static_cast<Number>(first + i + j);
       i += key_step;
     } else {
