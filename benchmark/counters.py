@@ -4,9 +4,10 @@
 
     benchmark/counters.py build/cuda/benchmark/benchmark_schedules docs/results/h200-counters.json
 
-runs each cell once under Nsight Compute (`ncu`, which has to be on the PATH), with clocks as they are, caches emptied
-before each kernel and one kernel at a time, and keeps the counters of every kernel for benchmark/report.py. Cells are
-those of the paper's shaders, index, 8 Mi requests, random and in runs of 32, unless --filter says otherwise.
+calls each cell once under Nsight Compute (`ncu`, which has to be on the PATH), with clocks as they are, caches emptied
+before each kernel and one kernel at a time, several times over where its counters do not fit at once, and keeps the
+counters of every kernel for benchmark/report.py. Cells are those of the paper's shaders, index, 8 Mi requests, random
+and in runs of 32, unless --filter names others, of one kind and one number of requests.
 """
 import argparse
 import csv
@@ -35,7 +36,8 @@ def names_of(program, cells):
 def profile(program, cells):
     """The rows of ncu's table, as dictionaries by its headings."""
     command = ["ncu", "--profile-from-start", "off", "--clock-control", "none", "--nvtx", "--csv", "--page", "raw",
-               "--print-units", "base", "--metrics", ",".join(METRICS), program, "--profile", f"--benchmark_filter={cells}"]
+               "--print-units", "base", "--metrics", ",".join(METRICS),
+               program, "--profile", f"--benchmark_filter={cells}"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     lines = done.stdout.splitlines()
     begin = next((k for k, line in enumerate(lines) if line.startswith('"ID"')), None)
@@ -45,8 +47,9 @@ def profile(program, cells):
 
 
 def kernel_of(row):
-    """One kernel: its name and its counters. A row of units has none."""
-    return {"kernel": row["Kernel Name"], **{short: float(row[name].replace(",", "")) for name, short in METRICS.items()}}
+    """One kernel: its name and its counters."""
+    counters = {short: float(row[name].replace(",", "")) for name, short in METRICS.items()}
+    return {"kernel": row["Kernel Name"], **counters}
 
 
 def main():
@@ -59,17 +62,20 @@ def main():
     names = names_of(arguments.program, arguments.filter)
     cells = {name: [] for name in names}
     for row in profile(arguments.program, arguments.filter):
+        if not row["ID"]:  # units
+            continue
         range_of_row = " ".join(value for key, value in row.items() if key and "Push/Pop" in key and value)
         here = [name for name in names if f":{name}:" in range_of_row]
-        if len(here) == 1:
-            cells[here[0]].append(kernel_of(row))
+        if len(here) != 1:
+            sys.exit(f"a kernel, {row['Kernel Name']}, is in the ranges of {len(here)} cells: {range_of_row}")
+        cells[here[0]].append(kernel_of(row))
     without = [name for name, kernels in cells.items() if not kernels]
     if without or not names:
         sys.exit(f"{len(without)} of {len(names)} cells have no kernels: {', '.join(without[:3])}")
     gpu, driver = (output_of("nvidia-smi", f"--query-gpu={what}", "--format=csv,noheader").splitlines()[0]
                    for what in ("name", "driver_version"))
-    context = {"date": datetime.datetime.now().astimezone().isoformat(timespec="seconds"), "machine": gpu, "driver": driver,
-               "ncu": output_of("ncu", "--version").splitlines()[-1], "commit": commit_of(ROOT)}
+    context = {"date": datetime.datetime.now().astimezone().isoformat(timespec="seconds"), "machine": gpu,
+               "driver": driver, "ncu": output_of("ncu", "--version").splitlines()[-1], "commit": commit_of(ROOT)}
     part = arguments.output.with_name(arguments.output.name + ".part")
     part.write_text(json.dumps({"context": context, "cells": cells}, indent=1) + "\n", encoding="utf-8")
     part.replace(arguments.output)

@@ -7,11 +7,10 @@
     benchmark/scenes.py pictures PATH_TRACER docs/scenes
 
 `efficiency` counts, and measures no time: the heterogeneous efficiency of every schedule at the first hits, and the
-requests of each shader; no machine changes it. `times` renders every scene by every schedule, several times, on a GPU
-larger pictures. Both are for
-benchmark/report.py. `pictures` writes a picture of each scene, all in one row, and for each a sheet of heat maps: the
-first hits from left to right, a row for each schedule of PICTURED, of every fourth pixel across and down of what
-`efficiency` counts.
+requests of each shader; no machine changes it. `times` renders every scene by every schedule, several times, in larger
+pictures on a GPU. Both are for benchmark/report.py. `pictures` writes a picture of each scene, all in one row, and for
+each a sheet of heat maps: the first hits from left to right, a row for each schedule of PICTURED, of every fourth pixel
+across and down of what `efficiency` counts.
 """
 import argparse
 import json

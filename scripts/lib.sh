@@ -12,7 +12,8 @@ cccl_wheel=nvidia-cuda-cccl==13.0.85
 build_packages=(g++ cmake ninja:ninja-build ca-certificates: libtbb-dev: libtinygltf-dev: libstb-dev:
   libopenexr-dev: libcli11-dev: nlohmann-json3-dev: libglm-dev:)
 
-say() { printf '\n=== %s\n' "$*"; }
+# With the time since the script began.
+say() { printf '\n=== %d:%02d %s\n' $((SECONDS / 60)) $((SECONDS % 60)) "$*"; }
 die() {
   printf '%s\n' "$@" >&2
   exit 1

@@ -15,12 +15,12 @@ METRICS = {
     "dram__bytes_read.sum": "bytes_read",
     "dram__bytes_write.sum": "bytes_written",
     "lts__t_sectors.avg.pct_of_peak_sustained_elapsed": "l2_percent",
-    "smsp__warps_active.avg.pct_of_peak_sustained_active": "warps_percent",
     "sm__icc_requests.sum": "code_requests",
     "sm__icc_requests_lookup_miss.sum": "code_misses",
     "smsp__average_warps_issue_stalled_no_instruction_per_issue_active.ratio": "waiting_for_code",
     "smsp__average_warps_issue_stalled_long_scoreboard_per_issue_active.ratio": "waiting_for_memory",
 }
+RESULT = 16  # bytes that benchmark_schedules stores for a request
 
 
 @dataclass(frozen=True)
@@ -29,6 +29,7 @@ class Cell:
     shaders: str
     schedule: str
     run: int
+    n: int
     kernels: list
 
     def total(self, counter):
@@ -42,7 +43,9 @@ class Cell:
         return 1e-9 * self.total("ns")
 
     def bytes(self):
-        return self.total("bytes_read") + self.total("bytes_written")
+        """To and from memory. Of what is written at least the results: the profiler empties the caches between kernels, and
+        does not count what was still in them."""
+        return self.total("bytes_read") + max(self.total("bytes_written"), RESULT * self.n)
 
     def intensity(self):
         """Instructions of warps per byte of memory."""
@@ -59,9 +62,11 @@ def read(path):
         cells = json.load(file)["cells"]
     found = {}
     for name, kernels in cells.items():
-        shaders, _, schedule, _, run = name.split("/")
+        shaders, _, schedule, n, run = name.split("/")
         key = shaders, schedule, int(run.removeprefix("run:"))
-        found[key] = Cell(*key, kernels)
+        if key in found:
+            raise ValueError(f"two cells are {key}")
+        found[key] = Cell(*key, int(n.removeprefix("n:")), kernels)
     return found
 
 
@@ -74,7 +79,7 @@ COLUMNS = {
     "memory, MB": lambda c: f"{c.bytes() / 1e6:.0f}",
     "L2 of its peak": lambda c: f"{c.mean('l2_percent'):.0f} %",
     "code fetched, M": lambda c: f"{c.total('code_requests') / 1e6:.1f}",
-    "not cached": lambda c: f"{100 * c.total('code_misses') / c.total('code_requests'):.0f} %",
+    "not cached, M": lambda c: f"{c.total('code_misses') / 1e6:.1f}",
     "waits for code": lambda c: f"{c.mean('waiting_for_code'):.1f}",
     "waits for memory": lambda c: f"{c.mean('waiting_for_memory'):.1f}",
 }

@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Memory bandwidth against the processor: what schedules do between the rate at which memory moves bytes and the rate
 at which instructions are issued, from a profiler's counters (counters.py)."""
+import re
+import statistics
+
 from .counters import read
 from .google_benchmark import Report
 from .markdown import table
-from .paper import SCENES
+from .paper import SCENES, unsorted
+from .schedules import ORACLES, Cells
 from .svg import Drawing, LogScale, plain
 
 WIDTH, LEFT, RIGHT, TOP, BOTTOM = 440, 58, 424, 78, 416
@@ -12,6 +16,8 @@ WIDTH, LEFT, RIGHT, TOP, BOTTOM = 440, 58, 424, 78, 416
 WAYS = {"oracle-launches": ("sorted beforehand", "s0", "disc"), "switch": ("as they come", "s1", "diamond"),
         "window": ("in windows", "s2", "square")}
 RUN = 1
+REQUEST = 32 + 16  # bytes that benchmark_schedules loads and stores for a request at least
+COPIED = 10  # and that benchmark_grouping's copy does
 
 
 def chosen(path):
@@ -25,7 +31,7 @@ def roofs(path, grouping):
     of warps at which all slots would be taken, by the cell that took the most of them."""
     shown = chosen(path).values()
     times = Report(grouping).times
-    copy = max(10 * n / time * 1e6 for ((_, way), n, _), time in times.items() if way == "copy-5-bytes")
+    copy = max(COPIED * n / time * 1e6 for ((_, way), n, _), time in times.items() if way == "copy-5-bytes")
     busiest = max(shown, key=lambda cell: cell.mean("issue_percent"))
     issue = busiest.total("instructions") / busiest.seconds() / (busiest.mean("issue_percent") / 100)
     return max([copy] + [cell.bytes() / cell.seconds() for cell in shown]), copy, issue
@@ -36,14 +42,35 @@ def counters(path, grouping):
     rows = []
     for (shaders, way), cell in chosen(path).items():
         of_memory, of_slots = cell.bytes() / cell.seconds() / memory, cell.mean("issue_percent") / 100
-        rows.append([shaders, WAYS[way][0], f"{cell.intensity():.3f}", f"{100 * of_memory:.0f} %", f"{100 * of_slots:.0f} %",
-                     "memory" if of_memory > of_slots else "instructions"])
+        rows.append([shaders, WAYS[way][0], f"{cell.intensity():.3f}", f"{100 * of_memory:.0f} %",
+                     f"{100 * of_slots:.0f} %", "memory" if of_memory > of_slots else "instructions"])
     head = ["shaders", "requests", "warp instructions per byte", "of the bytes per second",
             "of the slots for instructions", "nearer to its roof"]
     return table(head, rows) + (
         f"\n\nRoofs: {memory / 1e12:.2f} TB/s, the most that was measured (the benchmark's copy: {copy / 1e12:.2f}), "
         f"and {issue / 1e9:.0f} thousand million instructions of warps per second; they meet at {issue / memory:.2f} "
         "instructions per byte.")
+
+
+def shares_of(schedules, grouping, n):
+    """{(shaders, kind): (sorted beforehand, as they come, by `local`)} of a machine without counters: bytes of n
+    requests per second, over those of the copy that moves the next larger number of bytes."""
+    times = Report(grouping).times
+    copies = {size for (_, way), size, _ in times if way == "copy-5-bytes" and COPIED * size >= REQUEST * n}
+    copy = statistics.median(COPIED * size / time for ((_, way), size, _), time in times.items()
+                             if way == "copy-5-bytes" and size == min(copies))
+    cells, found = Cells(Report(schedules).times), {}
+    for scene in SCENES:
+        for kind, rows in cells.rows[scene.name, n, RUN].items():
+            ways = min(rows[name] for name in ORACLES), unsorted(rows), rows["local"]
+            found[scene.name, kind] = [REQUEST * n / time / copy for time in ways]
+    return found
+
+
+def shares(schedules, grouping, n):
+    found = shares_of(schedules, grouping, int(n))
+    return table(["shaders", "kind", "sorted beforehand", "as they come", "by `local`"],
+                 [[*key] + [f"{100 * share:.0f} %" for share in row] for key, row in found.items()])
 
 
 def plot(path, grouping):
@@ -72,5 +99,5 @@ def plot(path, grouping):
         here = x(cell.intensity()), y(cell.total("instructions") / cell.seconds())
         d.mark(shape, *here, look, f"{shaders}, {words}")
         if way == "switch":
-            d.text(here[0], here[1] + 18, shaders.replace("simple", "s.").replace("procedural", "p.").replace("moderate", "m."), "small", "middle")
+            d.text(here[0], here[1] + 18, re.sub(r"([a-z])[a-z]+", r"\1.", shaders), "small", "middle")
     return d.render()

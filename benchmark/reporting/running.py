@@ -25,9 +25,11 @@ def commit_of(root):
 
 
 def without_places(path):
-    """Takes the name of the host and the way to the program out of a report."""
+    """Takes the name of the host and the way to the program out of a report, and means and the like, which follow from
+    the repetitions."""
     report = json.loads(path.read_text(encoding="utf-8"))
     report["context"] = without_names(report["context"])
+    report["benchmarks"] = [cell for cell in report["benchmarks"] if cell.get("run_type") != "aggregate"]
     path.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
 
 

@@ -68,10 +68,16 @@ def measured(path):
 
 
 def speedups(path, names):
-    """{scene: how many times as fast as unsorted implicit serialisation the best of some schedules shades it}"""
+    """{scene: how many times as fast as unsorted implicit serialisation the best of some schedules shades it, and whether
+    the runs of the two lie apart}"""
     _, found, _ = measured(path)
-    middle = {key: statistics.median(values) for key, values in found.items()}
-    return {s: middle[s, "implicit"] / min(middle[s, name] for name in names) for s in dict.fromkeys(k[0] for k in found)}
+    result = {}
+    for scene in dict.fromkeys(scene for scene, _ in found):
+        best = min((found[scene, name] for name in names), key=statistics.median)
+        unsorted = found[scene, "implicit"]
+        result[scene] = (statistics.median(unsorted) / statistics.median(best),
+                         max(best) < min(unsorted) or max(unsorted) < min(best))
+    return result
 
 
 def times(path):

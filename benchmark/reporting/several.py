@@ -8,13 +8,13 @@ from .google_benchmark import Report
 from .markdown import table
 
 
-def threads(*paths):
-    """The same cells by one thread and more; a thread's efficiency is what it does next to the only one of the
-    first file."""
+def threads(*paths, cells=""):
+    """The same cells by one thread and more, those in whose names a regular expression is found; a thread's efficiency is
+    what it does next to the only one of the first file."""
     reports = sorted(((int(report.context["threads"]), path, report) for path in paths for report in [Report(path)]),
                      key=lambda item: item[0])
     first, _, base = reports[0]
-    cells = list(base.times)
+    cells = [key for key in base.times if re.search(cells, "/".join([*key[0], f"n:{key[1]}", f"run:{key[2]}"]))]
     head = ["threads"]
     for (shaders, _, schedule), _, _ in cells:
         head += [f"{schedule}, {shaders.split()[0]}", "efficiency"]

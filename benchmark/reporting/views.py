@@ -54,6 +54,7 @@ VIEWS = {
     "local": claims.local,
     "scaling": claims.scaling,
     "roofs": roofline.counters,
+    "shares": roofline.shares,
     "counters": counters.counters,
     "counter": counters.counter,
     "profiled": counters.provenance,
