@@ -24,16 +24,16 @@ class Stale(ValueError):
     """A marker that says nothing that can be made."""
 
 
-def number(value):
-    """8Mi and 128Ki in full; all else as it is."""
-    units = {"Ki": 1 << 10, "Mi": 1 << 20}
-    return str(int(value[:-2]) * units[value[-2:]]) if re.fullmatch(r"\d+[KM]i", value) else value
+def in_full(value):
+    """8Mi and 128Ki as numbers, also in a list; all else as it is."""
+    units = {"K": 1 << 10, "M": 1 << 20}
+    return re.sub(r"\b(\d+)([KM])i\b", lambda m: str(int(m[1]) * units[m[2]]), value)
 
 
 def parse(words, raw):
     """The name of a view, its files, and its options."""
     name, *rest = shlex.split(words)
-    options = {word.split("=", 1)[0]: number(word.split("=", 1)[1]) for word in rest if "=" in word}
+    options = {word.split("=", 1)[0]: in_full(word.split("=", 1)[1]) for word in rest if "=" in word}
     files = [raw / word for word in rest if "=" not in word]
     missing = [file.name for file in files if not file.is_file()]
     if missing:
