@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Memory bandwidth against the processor: what schedules do between the rate at which memory moves bytes and the rate
 at which instructions are issued, from a profiler's counters (counters.py)."""
-import re
 import statistics
 
 from .counters import read
@@ -16,6 +15,10 @@ WIDTH, LEFT, RIGHT, TOP, BOTTOM = 440, 58, 424, 78, 416
 WAYS = {"oracle-launches": ("sorted beforehand", "s0", "disc"), "switch": ("as they come", "s1", "diamond"),
         "window": ("in windows", "s2", "square")}
 RUN = 1
+# Where the names of points stand: from the requests as they come, by so much, and how they are anchored. The two
+# procedural sets lie on each other.
+NAMES = {"3 simple": ("3 simple", 9, 4, "start"), "6 simple": ("6 simple", 9, 4, "start"),
+         "11 moderate": ("11 moderate", -9, 4, "end"), "2 simple + 2 procedural": ("both procedural", 0, 20, "middle")}
 REQUEST = 32 + 16  # bytes that benchmark_schedules loads and stores for a request at least
 COPIED = 10  # and that benchmark_grouping's copy does
 
@@ -75,7 +78,7 @@ def shares(schedules, grouping, n):
 
 def plot(path, grouping):
     memory, _, issue = roofs(path, grouping)
-    x = LogScale(0.02, 4, LEFT, RIGHT)
+    x = LogScale(0.015, 6, LEFT, RIGHT)
     y = LogScale(40e9, 1.6e12, BOTTOM, TOP)
     d = Drawing(WIDTH, BOTTOM + 54, "Instructions per second over instructions per byte on one NVIDIA H200")
     d.text(8, 20, "NVIDIA H200, 8 Mi requests, ids at random", "strong")
@@ -93,11 +96,12 @@ def plot(path, grouping):
     d.text(14, (TOP + BOTTOM) / 2, "instructions of warps, 10⁹ per second", "", "middle", turned=True)
     d.line([(x(x.low), y(max(memory * x.low, y.low))), (x(issue / memory), y(issue)), (x(x.high), y(issue))], "line s5")
     d.text(x(x.high) - 4, y(issue) - 8, "issue of instructions", "small", "end")
-    d.text(x(0.034) + 4, y(memory * 0.034) - 14, "memory", "small")
+    d.text(x(0.1) - 8, y(memory * 0.1), "memory", "small", "end")
     for (shaders, way), cell in chosen(path).items():
         words, look, shape = WAYS[way]
         here = x(cell.intensity()), y(cell.total("instructions") / cell.seconds())
         d.mark(shape, *here, look, f"{shaders}, {words}")
-        if way == "switch":
-            d.text(here[0], here[1] + 18, re.sub(r"([a-z])[a-z]+", r"\1.", shaders), "small", "middle")
+        if way == "switch" and shaders in NAMES:
+            name, right, down, anchor = NAMES[shaders]
+            d.text(here[0] + right, here[1] + down, name, "small", anchor)
     return d.render()
