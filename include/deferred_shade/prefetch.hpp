@@ -16,7 +16,7 @@ enum class cache { none, second_level = 2, first_level = 3 };
 /// Knows pointers only; the address need not be valid. It is never said that something will be
 /// written: the instruction for that knows no second-level cache.
 template <cache To, class Pointer>
-void prefetch(Pointer const& pointer, request_index i) noexcept {
+void prefetch([[maybe_unused]] Pointer const& pointer, [[maybe_unused]] request_index i) noexcept {
 #if DEFERRED_SHADE_HAS_GNU
   if constexpr (To != cache::none && std::is_pointer_v<Pointer>) {
     using record = std::remove_pointer_t<Pointer>;
@@ -26,8 +26,6 @@ void prefetch(Pointer const& pointer, request_index i) noexcept {
     }
   }
 #endif
-  static_cast<void>(pointer);
-  static_cast<void>(i);
 }
 
 }  // namespace deferred_shade::detail

@@ -51,15 +51,14 @@ using byte_vector = std::uint8_t __attribute__((vector_size(32)));
 #else
 using byte_vector = std::uint8_t __attribute__((vector_size(16)));
 #endif
+#else
+using byte_vector = std::uint8_t;
+#endif
 
 /// Whether keys are counted by comparing vectors of them with every shader in turn: for few shaders
 /// less work than to look at the keys one by one.
 template <shader_id Shaders>
-inline constexpr bool are_compared = Shaders <= sizeof(byte_vector);
-#else
-template <shader_id Shaders>
-inline constexpr bool are_compared = false;
-#endif
+inline constexpr bool are_compared = DEFERRED_SHADE_HAS_GNU&& Shaders <= sizeof(byte_vector);
 
 /// The parts of a sequence that are counted in turn. Neighbours often are the same, and the one
 /// increment waits for the other; but the counters are to stay in the first-level cache.
@@ -120,14 +119,13 @@ class key_counts {
 
 #if DEFERRED_SHADE_HAS_GNU
   // Subtracts the answers, which are -1 where a key is that of the shader. Returns how many keys it
-  // has counted. Where the loops over `together` are not unrolled, g++ keeps the counts in memory.
+  // has counted. Where the inner loop is not unrolled, g++ keeps the counts in memory.
   static request_index add_vectors(key const* keys, request_index size, std::uint32_t* counts_of) {
-    constexpr request_index width = sizeof(byte_vector);
-    constexpr shader_id together = 4;  // shaders that one load of keys is compared with
+    constexpr std::uint32_t width = sizeof(byte_vector), together = 4;  // shaders to a load of keys
     request_index i = 0;
     while (size - i >= width) {
       request_index const rows = std::min((size - i) / width, request_index{255});
-      std::uint32_t none = rows * width;
+      counts_of[Shaders] += rows * width;  // less those that are a shader's
       for (shader_id k = 0; k < Shaders; k += together) {
         byte_vector counts[together] = {};
         for (request_index row = 0; row < rows; ++row) {
@@ -138,16 +136,13 @@ class key_counts {
             counts[j] -= reinterpret_cast<byte_vector>(some == static_cast<std::uint8_t>(k + j));
           }
         }
-#pragma GCC unroll 4
-        for (shader_id j = 0; j < together; ++j) {
-          if (k + j >= Shaders) break;
+        for (shader_id j = 0; j < together && k + j < Shaders; ++j) {
           std::uint32_t sum = 0;
           for (request_index lane = 0; lane < width; ++lane) sum += counts[j][lane];
           counts_of[k + j] += sum;
-          none -= sum;
+          counts_of[Shaders] -= sum;
         }
       }
-      counts_of[Shaders] += none;
       i += rows * width;
     }
     return i;
