@@ -43,8 +43,8 @@ class Cell:
         return 1e-9 * self.total("ns")
 
     def bytes(self):
-        """To and from memory. Of what is written at least the results: the profiler empties the caches between kernels, and
-        does not count what was still in them."""
+        """To and from memory. Of what is written at least the results: the profiler empties the caches between kernels,
+        and does not count what was still in them."""
         return self.total("bytes_read") + max(self.total("bytes_written"), RESULT * self.n)
 
     def intensity(self):

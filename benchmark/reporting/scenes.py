@@ -11,7 +11,7 @@ ORDERS = {"implicit": "as they come", "local-bitonic": "sorted in blocks of 256"
 PROCEDURAL = ("marble", "wood")
 
 
-def plain(milliseconds):
+def in_words(milliseconds):
     """Whole ones, and of less than ten the hundredths."""
     return f"{milliseconds:.0f}" if milliseconds >= 10 else f"{milliseconds:.2f}"
 
@@ -68,8 +68,8 @@ def measured(path):
 
 
 def speedups(path, names):
-    """{scene: how many times as fast as unsorted implicit serialisation the best of some schedules shades it, and whether
-    the runs of the two lie apart}"""
+    """{scene: how many times as fast as unsorted implicit serialisation the best of some schedules shades it, and
+    whether the runs of the two lie apart}"""
     _, found, _ = measured(path)
     result = {}
     for scene in dict.fromkeys(scene for scene, _ in found):
@@ -86,7 +86,8 @@ def times(path):
     middle = {key: statistics.median(values) for key, values in found.items()}
     spread = {key: (max(values) - min(values)) / middle[key] for key, values in found.items()}
     scenes, names = (list(dict.fromkeys(key[k] for key in found)) for k in (0, 1))
-    rows = [[f"`{name}`"] + [f"{plain(middle[s, name])} ± {50 * spread[s, name]:.0f} %" for s in scenes] for name in names]
+    rows = [[f"`{name}`"] + [f"{in_words(middle[s, name])} ± {50 * spread[s, name]:.0f} %" for s in scenes]
+            for name in names]
     for words, of in (("", names), ("the paper's ", [name for name in names if name in SCHEDULES])):
         best = [min(of, key=lambda name, s=s: middle[s, name]) for s in scenes]
         rows.append([f"*{words}fastest*"] + [f"`{name}`" for name in best])
