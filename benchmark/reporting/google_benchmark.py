@@ -44,8 +44,8 @@ class Report:
         """What was measured and on what, the spread, and the errors, as paragraphs."""
         lines = [", ".join(f"{key} {self.context[key]}" for key in CONTEXT if key in self.context)]
         if self.spreads:
-            lines.append("Medians of repetitions. Between the extremes of a cell lie "
-                         f"{100 * statistics.median(self.spreads):.0f} % of its median, of the least certain one "
+            lines.append("Medians of repetitions. Those of a typical cell differ by "
+                         f"{100 * statistics.median(self.spreads):.0f} % of its median, of the worst by "
                          f"{100 * max(self.spreads):.0f} %.")
         return "\n\n".join(lines + [f"Error in {error}" for error in self.errors])
 
