@@ -139,6 +139,15 @@ TEST_CASE("statistics refuse counts that no wave has", "[statistics]") {
                   std::length_error);
 }
 
+TEST_CASE("the shaders that occur are those of the table that was counted", "[statistics]") {
+  std::uint8_t const ids[] = {0, 255, 2};
+  auto const counts = ds::count_occurrences(thrust::cpp::par, 3U, &ids[0], 3);
+  CHECK(counts.occurring<3>().to_ulong() == 5);
+  // One that is larger by one would take the requests that name no shader for the last one's.
+  CHECK_THROWS_AS(counts.occurring<4>(), std::invalid_argument);
+  CHECK_THROWS_AS(counts.occurring<2>(), std::invalid_argument);
+}
+
 TEST_CASE("a group has at least one lane", "[statistics]") {
   std::uint8_t const ids[1] = {0};
   double const costs[1] = {1};

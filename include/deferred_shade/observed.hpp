@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
@@ -11,12 +12,13 @@ namespace deferred_shade {
 /// A workspace whose observer is told what a schedule does, for a profiler or a timeline. It goes
 /// where the workspace would; there, no code is made for it.
 ///
-/// `Observer` is a function object that is cheap to copy, called with each phase. What it returns
-/// lives as long as the phase and ends with it, by an exception as well, on the thread that called
-/// shade(). `group` is told by schedules that order a wave before they run it, `dispatch` by all,
-/// and in it `shader` by those that have a launch for each shader. On CUDA, what lies between is
-/// the submission of work: nothing waits, and what the observer itself puts on the stream, an event
-/// say, stands before and behind the work of the phase. Kernels do not overlap across it.
+/// `Observer` is a function object that is cheap to copy, called with each phase. What it returns,
+/// any value if it needs none, lives as long as the phase and ends with it, by an exception as
+/// well, on the thread that called shade(). `group` is told by schedules that order a wave before
+/// they run it, `dispatch` by all, and in it `shader` by those that have a launch for each shader.
+/// On CUDA, what lies between is the submission of work: nothing waits, and what the observer
+/// itself puts on the stream, an event say, stands before and behind the work of the phase. Kernels
+/// do not overlap across it.
 ///
 ///     auto const ranges = [](ds::phase const& p) { return nvtx3::scoped_range{p.name}; };
 ///     deferred_shade::observed seen{scratch, ranges};
@@ -34,7 +36,10 @@ struct observed {
   }
 
   /// Tells the observer; the phase lasts as long as what is returned.
-  auto begin_phase(phase const& p) const { return observer(p); }
+  auto begin_phase(phase const& p) const {
+    static_assert(!std::is_void_v<decltype(observer(p))>, "an observer returns something");
+    return observer(p);
+  }
 };
 
 template <class Allocator, class Observer>

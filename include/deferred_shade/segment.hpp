@@ -84,14 +84,14 @@ DEFERRED_SHADE_FLATTEN void run_packed(Shader const& shader, std::size_t count, 
   }
   for (; packed < count; ++packed) {
     ahead(packed);
-    requests.copy(packed, load(shader.source, index_of(packed)));
+    requests.copy(packed, detail::load(shader.source, index_of(packed)));
   }
   auto const& function = shader.function;
   for (std::size_t j = 0; j < count; ++j) {
     request const r = requests.get(j);
     results.set(j, function(r));
   }
-  for (std::size_t j = 0; j < count; ++j) store(shader.sink, index_of(j), results.get(j));
+  for (std::size_t j = 0; j < count; ++j) detail::store(shader.sink, index_of(j), results.get(j));
 }
 
 /// Runs one shader on the requests `index_of(j)` for j from 0 to `count` - 1, and calls `ahead(j)`

@@ -19,12 +19,6 @@ inline constexpr bool is_device_count = false;
 template <class Integer>
 inline constexpr bool is_device_count<device_count<Integer>> = true;
 
-inline bool is_empty(request_index n) { return n == 0; }
-template <class Integer>
-bool is_empty(device_count<Integer> n) {
-  return n.maximum == 0;
-}
-
 // What a schedule is given as the number of requests: the number itself where the host sees it.
 template <class System, class Count>
 auto wave_size(System, Count n) {
@@ -48,7 +42,8 @@ auto wave_size(System, Count n) {
 /// - `schedule`: one of this library, or any function object that is called with the arguments
 ///   below, `n` as a request_index. On CUDA a device_count stays one, and a table of up to 32
 ///   places from which shader_table::only has taken some comes without gaps, with ids that fit it.
-/// - `n`: the number of requests, an integer or a device_count.
+/// - `n`: the number of requests, an integer or a device_count; for the maximum of one, whatever
+///   the schedule, `scratch` is reserved.
 /// - `ids`: a random-access iterator over the shader id of each request, an integer or enumeration
 ///   of 8 to 32 bits. It is read more than once. An id that the table does not have leaves its
 ///   request alone.
@@ -68,14 +63,12 @@ template <class Policy, class Schedule, class Count, class Ids, class... Shaders
 void shade(Policy const& exec, Schedule const& schedule, Count n, Ids ids,
            shader_table<Shaders...> const& shaders, Workspace& scratch) {
   using system = detail::system_of<Policy>;
-  static_assert(
-      !std::is_void_v<system>,
-      "exec is a policy of Thrust's cpp, omp or tbb system or, where a CUDA compiler is at "
-      "work, of its cuda system");
+  static_assert(!std::is_void_v<system>,
+                "exec is a policy of Thrust's system cpp, omp, tbb or, for nvcc, cuda");
   auto const count = detail::wave_size(system{}, n);
   // Sized by the maximum, so that no later count allocates.
   if constexpr (detail::is_device_count<Count>) scratch.reserve(n.maximum, sizeof...(Shaders));
-  if (detail::is_empty(count)) return;
+  if (detail::maximum_of(count) == 0) return;
   if constexpr (std::is_pointer_v<Ids>) {
     if (ids == nullptr) {
       throw std::invalid_argument("deferred_shade::shade: ids is null, and n is not 0");

@@ -62,11 +62,16 @@ struct occurrences {
   /// groups[k]: the groups in which shader k occurs.
   std::vector<std::uint64_t> groups;
 
-  /// The shaders that occur, of a table of so many: for specialized and shader_table::expecting.
+  /// The shaders that occur, of the table of so many that was counted: for specialized and
+  /// shader_table::expecting. Throws std::invalid_argument where another number was.
   template <shader_id Shaders>
   std::bitset<Shaders> occurring() const {
+    if (groups.size() != Shaders) {
+      throw std::invalid_argument("deferred_shade::occurrences::occurring: " +
+                                  std::to_string(groups.size()) + " shaders were counted");
+    }
     std::bitset<Shaders> result;
-    for (shader_id k = 0; k < Shaders; ++k) result[k] = requests.at(k) > 0;
+    for (shader_id k = 0; k < Shaders; ++k) result[k] = requests[k] > 0;
     return result;
   }
 };
@@ -80,13 +85,12 @@ occurrences occurrences_of(Policy const& exec, std::size_t size, Ids const& ids,
   // depend on who owns which block.
   block_partition const blocks(size, shaders, width);
   std::size_t const columns = std::size_t{shaders} + 1;
-  std::vector<std::uint64_t> requests(blocks.count() * columns);
-  std::vector<std::uint64_t> groups(blocks.count() * columns);
-  std::vector<std::uint64_t> last_group(blocks.count() * columns);  // its number + 1; 0: none yet
+  std::vector<std::uint64_t> requests(blocks.count() * columns), groups = requests;
+  std::vector<std::uint64_t> last_group = requests;  // its number + 1; 0: none yet
   for_each_block(exec, blocks, [&](std::size_t b) {
     std::size_t const row = b * columns;
     for (std::size_t i = blocks.begin(b); i < blocks.end(b); ++i) {
-      std::size_t const k = row + shader_of(ids, static_cast<request_index>(i), shaders);
+      std::size_t const k = row + detail::shader_of(ids, static_cast<request_index>(i), shaders);
       std::uint64_t const group = i / width + 1;
       ++requests[k];
       if (last_group[k] != group) ++groups[k];
@@ -111,10 +115,9 @@ void efficiency_of_groups(Policy const& exec, std::size_t size, Ids const& ids,
     std::size_t* const last = last_group.data() + b * model.shaders;
     for (std::size_t first = blocks.begin(b); first < blocks.end(b); first += model.width) {
       std::size_t const group = first / model.width;
-      double useful = 0;
-      double held = 0;
+      double useful = 0, held = 0;
       for (std::size_t i = first; i < std::min(size, first + model.width); ++i) {
-        shader_id const k = shader_of(ids, static_cast<request_index>(i), model.shaders);
+        shader_id const k = detail::shader_of(ids, static_cast<request_index>(i), model.shaders);
         if (k == model.shaders) continue;
         useful += model.costs[k];
         if (last[k] != group + 1) held += model.costs[k];
@@ -159,8 +162,7 @@ template <class Policy, class Count, class Ids>
 double heterogeneous_efficiency(Policy const& exec, Count n, Ids ids,
                                 efficiency_model const& model) {
   occurrences const count = count_occurrences(exec, n, ids, model.shaders, model.width);
-  double useful = 0;
-  double held = 0;
+  double useful = 0, held = 0;
   for (shader_id k = 0; k < model.shaders; ++k) {
     useful += static_cast<double>(count.requests[k]) * model.costs[k];
     held += static_cast<double>(count.groups[k]) * model.costs[k];

@@ -69,6 +69,7 @@ inline constexpr bool is_id =
 ///
 /// `Ids` is a random-access iterator over an integer or an enumeration of 8 to 32 bits. A negative
 /// id names no shader.
+DEFERRED_SHADE_EXEC_CHECK_DISABLE
 template <class Ids>
 DEFERRED_SHADE_HOST_DEVICE inline shader_id shader_of(Ids const& ids, request_index i,
                                                       shader_id shaders) {
@@ -82,6 +83,15 @@ DEFERRED_SHADE_HOST_DEVICE inline shader_id shader_of(Ids const& ids, request_in
 }
 
 namespace detail {
+
+using deferred_shade::shader_of;  // for calls that find no function of a renderer's
+
+/// What the host knows of the number of requests: its maximum.
+inline std::size_t maximum_of(request_index n) { return n; }
+template <class Integer>
+std::size_t maximum_of(device_count<Integer> n) {
+  return n.maximum;
+}
 
 /// The narrowest key that holds the ids 0 to `Shaders`, the last one for requests that name none.
 template <shader_id Shaders>

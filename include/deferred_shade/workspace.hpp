@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <thrust/memory.h>
 #include <thrust/type_traits/is_execution_policy.h>
 #include <algorithm>
 #include <cstddef>
@@ -42,8 +43,9 @@ struct elements {
 ///
 /// One workspace serves one `shade` at a time; on CUDA, also one stream at a time. `Allocator` is
 /// any standard allocator, Thrust's among them; the memory it gives must be accessible where
-/// `shade` runs. From a policy for CUDA comes a workspace on the current device, with a
-/// cuda_allocator.
+/// `shade` runs. From a policy for CUDA comes one with a cuda_allocator, which allocates on the
+/// device that is current then. A workspace that grows gives its old memory back first: on CUDA,
+/// if the allocator does not wait for the device as cudaFree does, reserve, or wait, before that.
 ///
 ///     deferred_shade::workspace scratch{thrust::omp::par};
 ///     deferred_shade::workspace mine{my_allocator<std::byte>{pool}};
@@ -142,18 +144,9 @@ class workspace {
 
   template <class T>
   T* place(elements<T> array, std::size_t& used) noexcept {
-    auto* const first = reinterpret_cast<std::byte*>(raw(data_)) + used;
+    auto* const first = reinterpret_cast<std::byte*>(thrust::raw_pointer_cast(data_)) + used;
     used += bytes(array);
     return reinterpret_cast<T*>(first);
-  }
-
-  template <class Pointer>
-  static line* raw(Pointer const& p) noexcept {
-    if constexpr (std::is_pointer_v<Pointer>) {
-      return p;
-    } else {
-      return p.get();
-    }
   }
 
   // Frees first: the memory of two waves need not fit side by side.

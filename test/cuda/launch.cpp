@@ -133,6 +133,30 @@ TEST_CASE("a lambda for host and device makes ids of hit records", "[cuda]") {
       [&](auto schedule) { test::check_against_loop<gpu, 5>(schedule, n, ids, scratch); });
 }
 
+// [api_error]: a call of the CUDA runtime fails on purpose, which a tool that watches it reports.
+TEST_CASE("an error that the renderer left behind does not disturb a wave", "[cuda][api_error]") {
+  std::uint32_t const n = 20011;
+  CAPTURE(test::run_seed());
+  auto const ids = test::on<gpu>(random_ids(n, 40));
+  ds::workspace scratch{gpu::policy()};
+  auto const leave_error = [] {
+    cudaGetLastError();
+    CHECK(cudaSetDevice(-1) == cudaErrorInvalidDevice);
+  };
+  test::for_each_schedule([&](auto schedule) {
+    leave_error();
+    test::check_against_loop<gpu, 40>(schedule, n, ids.data(), scratch);
+    cudaGetLastError();
+  });
+  // It stays for the renderer to find, where the library calls no CUB.
+  test::trace<gpu> actual(n);
+  leave_error();
+  ds::shade(gpu::policy(), ds::implicit_serialization{}, n, ids.data(),
+            test::tracing_table<40>(actual.value.data(), actual.runs.data()), scratch);
+  CHECK(cudaGetLastError() == cudaErrorInvalidDevice);
+  gpu::wait();
+}
+
 TEST_CASE("shaders of a large table run on a GPU", "[cuda]") {
   std::uint32_t const n = 100003;
   CAPTURE(test::run_seed());

@@ -109,6 +109,11 @@ TEST_CASE("memory that a GPU does not have is refused by name, and harms nothing
   check_workspace(scratch);
 }
 
+TEST_CASE("an array whose bytes do not fit a size has no memory", "[cuda]") {
+  auto const too_many = static_cast<std::size_t>(-1) / sizeof(double) + 2;
+  CHECK_THROWS_AS(ds::cuda_allocator<double>().allocate(too_many), std::bad_array_new_length);
+}
+
 TEST_CASE("a wave whose memory is refused leaves results alone", "[cuda]") {
   std::uint32_t const n = 30011;
   CAPTURE(test::run_seed());

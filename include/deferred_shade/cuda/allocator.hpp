@@ -25,6 +25,7 @@ struct cuda_allocator {
   cuda_allocator(cuda_allocator<U> const&) noexcept {}
 
   T* allocate(std::size_t n) {
+    if (n > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_array_new_length();
     int device = 0;
     detail::check_cuda(cudaGetDevice(&device), "looking for a CUDA device");
     void* memory = nullptr;

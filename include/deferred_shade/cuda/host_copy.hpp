@@ -31,14 +31,13 @@ request_index count_on_host(std::string const& caller, cudaStream_t stream,
   return checked_count(caller, device_count<Integer>{&count, n.maximum});
 }
 
-/// The largest number there is, which no table reaches.
-inline constexpr shader_id no_shader = static_cast<shader_id>(-1);
-
 template <class Ids>
 __global__ void copy_ids_kernel(std::size_t n, Ids ids, shader_id* copy) {
   begin_after_earlier_kernels();
   std::size_t const i = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
-  if (i < n) copy[i] = shader_of(ids, static_cast<request_index>(i), no_shader);
+  if (i >= n) return;
+  constexpr auto none = static_cast<shader_id>(-1);  // which no table reaches
+  copy[i] = detail::shader_of(ids, static_cast<request_index>(i), none);
 }
 
 /// The id of each of `n` requests.

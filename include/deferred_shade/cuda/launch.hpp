@@ -35,13 +35,6 @@ __device__ request_index size_of(device_count<Integer> n) {
   return static_cast<request_index>(positive < n.maximum ? positive : n.maximum);
 }
 
-/// What the host knows of the number of requests: its maximum.
-inline std::size_t maximum_of(request_index n) { return n; }
-template <class Integer>
-std::size_t maximum_of(device_count<Integer> n) {
-  return n.maximum;
-}
-
 /// What a launch asks for. A grid of no blocks is not launched.
 struct launch_shape {
   std::size_t blocks;
@@ -69,8 +62,8 @@ constexpr bool is_compiled_for_overlap() {
 }
 
 /// Whether `Kernel` may start before the work ahead of it is done: on GPUs that can, where its code
-/// was compiled for them, so that it waits by itself. Asked of CUDA once per thread of the host and
-/// device.
+/// was compiled for them, so that it waits by itself. Asked of CUDA once per thread of the host,
+/// and again where its device changes.
 template <auto Kernel>
 bool may_start_early() {
   thread_local int known_device = -1;
@@ -93,7 +86,6 @@ template <auto Kernel, class... Arguments>
 void launch(char const* what, cudaStream_t stream, launch_shape shape,
             Arguments const&... arguments) {
   if (shape.blocks == 0) return;
-  cudaGetLastError();            // what the renderer left there is no error of this launch
   if (shape.shared_bytes > 0) {  // with what the kernel has itself, it may be more than the default
     check_cuda(cudaFuncSetAttribute(Kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
                                     static_cast<int>(shape.shared_bytes)),

@@ -71,7 +71,7 @@ __device__ void load_neighbours(Ids const& ids, request_index first, std::uint32
   }
 #pragma unroll
   for (std::uint32_t i = 0; i < Items; ++i) {
-    keys[i] = i < size ? shader_of(ids, first + i, Shaders) : Shaders;
+    keys[i] = i < size ? detail::shader_of(ids, first + i, Shaders) : Shaders;
   }
 }
 
@@ -83,13 +83,13 @@ __device__ void load_rows(Ids const& ids, request_index first, std::uint32_t siz
   if (__all_sync(all_lanes, size > (Items - 1) * warp_size)) {  // then no load waits for a branch
 #pragma unroll
     for (std::uint32_t i = 0; i < Items; ++i) {
-      keys[i] = shader_of(ids, first + i * warp_size, Shaders);
+      keys[i] = detail::shader_of(ids, first + i * warp_size, Shaders);
     }
   } else {
 #pragma unroll
     for (std::uint32_t i = 0; i < Items; ++i) {
       std::uint32_t const distance = i * warp_size;
-      keys[i] = distance < size ? shader_of(ids, first + distance, Shaders) : Shaders;
+      keys[i] = distance < size ? detail::shader_of(ids, first + distance, Shaders) : Shaders;
     }
   }
 }

@@ -33,5 +33,8 @@ inline void check_cuda(cudaError_t status, char const* doing) {
   throw cuda_error(status, doing);
 }
 
+/// Before a call of CUB, which would take what the renderer left there for an error of its own.
+inline void forget_earlier_error() { cudaGetLastError(); }
+
 }  // namespace detail
 }  // namespace deferred_shade

@@ -29,7 +29,7 @@ void run_explicit(host_system, Policy const& exec, request_index n, Ids ids,
     [[maybe_unused]] auto const running = scratch.begin_phase({"shader", id});
     thrust::for_each_n(exec, thrust::counting_iterator<request_index>(0), std::size_t{n},
                        [ids, &shader](request_index i) {
-                         if (shader_of(ids, i, sizeof...(Shaders)) == decltype(id)::value)
+                         if (detail::shader_of(ids, i, sizeof...(Shaders)) == decltype(id)::value)
                            shader(i);
                        });
   });

@@ -20,9 +20,10 @@ namespace detail {
 template <class Policy, class Ids, class... Shaders>
 void run_implicit(host_system, Policy const& exec, request_index n, Ids ids,
                   shader_table<Shaders...> const& shaders) {
-  thrust::for_each_n(
-      exec, thrust::counting_iterator<request_index>(0), std::size_t{n},
-      [ids, &shaders](request_index i) { shaders.run(shader_of(ids, i, sizeof...(Shaders)), i); });
+  thrust::for_each_n(exec, thrust::counting_iterator<request_index>(0), std::size_t{n},
+                     [ids, &shaders](request_index i) {
+                       shaders.run(detail::shader_of(ids, i, sizeof...(Shaders)), i);
+                     });
 }
 
 // The switch is on the segment that holds the request. Every block has its share of every segment,

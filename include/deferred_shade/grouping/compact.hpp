@@ -36,17 +36,19 @@ grouping compact_grouping(host_system, Policy const& exec, request_index n, Ids 
   for (shader_id k = 0; k < Shaders; ++k) {
     offsets[k + 1] = offsets[k];
     if (!wanted[k]) continue;
-    auto const selected = [ids, k](request_index i) { return shader_of(ids, i, Shaders) == k; };
+    auto const named = [ids, k](request_index i) {
+      return detail::shader_of(ids, i, Shaders) == k;
+    };
     for_each_block(exec, blocks, [=, counts = counts](std::size_t b) {
-      counts[b] = static_cast<std::uint32_t>(thrust::count_if(thrust::seq, request(blocks.begin(b)),
-                                                              request(blocks.end(b)), selected));
+      counts[b] = static_cast<std::uint32_t>(
+          thrust::count_if(thrust::seq, request(blocks.begin(b)), request(blocks.end(b)), named));
     });
     counts[blocks.count()] = 0;
     thrust::exclusive_scan(thrust::seq, counts, counts + blocks.count() + 1, counts, offsets[k]);
     offsets[k + 1] = counts[blocks.count()];
     for_each_block(exec, blocks, [=, counts = counts, permutation = permutation](std::size_t b) {
       thrust::copy_if(thrust::seq, request(blocks.begin(b)), request(blocks.end(b)),
-                      permutation + counts[b], selected);
+                      permutation + counts[b], named);
     });
   }
   return {permutation, offsets, n};

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <thrust/binary_search.h>
-#include <thrust/copy.h>
-#include <thrust/execution_policy.h>
-#include <thrust/sequence.h>
 #include <thrust/sort.h>
 #include <thrust/system/cpp/execution_policy.h>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <new>
-#include <type_traits>
+#include <numeric>
+#include <utility>
 
 #include <deferred_shade/blocks.hpp>
 #include <deferred_shade/grouping/counting_sort.hpp>
@@ -50,10 +48,9 @@ grouping radix_grouping(host_system, Policy const& exec, request_index n, Ids id
   block_partition const blocks(n, Shaders);
   constexpr shader_id columns = Shaders + 1;
   constexpr std::size_t pair_size = sizeof(key) + sizeof(request_index);
-  std::size_t const padded = (std::size_t{n} + 63) / 64 * 64;
   auto const [permutation, keys, indices, temporary, counts, offsets] =
       scratch.take(elements<request_index>(n), elements<key>(n), elements<request_index>(n),
-                   elements<std::byte>(padded * pair_size),
+                   elements<std::byte>((std::size_t{n} + 63) / 64 * 64 * pair_size),
                    elements<std::uint32_t>(blocks.max_count(n, Shaders) * columns),
                    elements<request_index>(columns));
 
@@ -64,16 +61,14 @@ grouping radix_grouping(host_system, Policy const& exec, request_index n, Ids id
         std::size_t const size = blocks.end(b) - begin;
         key* const first = keys + begin;
         load_keys<Shaders>(ids_from(ids, static_cast<request_index>(begin)), size, first);
-        thrust::sequence(thrust::seq, indices + begin, indices + begin + size,
-                         static_cast<request_index>(begin));
+        std::iota(indices + begin, indices + begin + size, static_cast<request_index>(begin));
         arena memory(temporary + begin * pair_size, (size + 63) / 64 * 64 * pair_size);
         thrust::stable_sort_by_key(thrust::cpp::par(memory), first, first + size, indices + begin);
 
         std::uint32_t* const row = counts + b * columns;
         key const* run = first;
         for (shader_id k = 0; k <= Shaders; ++k) {
-          key const* const end = thrust::upper_bound(
-              thrust::seq, run, static_cast<key const*>(first + size), static_cast<key>(k));
+          auto const end = std::upper_bound<key const*>(run, first + size, static_cast<key>(k));
           row[k] = static_cast<std::uint32_t>(end - run);
           run = end;
         }
@@ -89,7 +84,7 @@ grouping radix_grouping(host_system, Policy const& exec, request_index n, Ids id
                      // how long the run is.
                      std::uint32_t const end =
                          b + 1 < blocks.count() ? row[columns + k] : offsets[k + 1];
-                     thrust::copy_n(thrust::seq, run, end - row[k], permutation + row[k]);
+                     std::copy_n(run, end - row[k], permutation + row[k]);
                      run += end - row[k];
                    }
                  });

@@ -11,6 +11,7 @@
 #include <deferred_shade/grouping/counting_sort.hpp>
 #include <deferred_shade/segment.hpp>
 #include <deferred_shade/shader_table.hpp>
+#include <deferred_shade/system.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade {
@@ -74,14 +75,14 @@ template <class Ids>
 request_index end_of_stretch(Ids const& ids, request_index begin, request_index end,
                              shader_id none) {
   constexpr request_index step = 32;  // at a time: compilers make vectors of it
-  shader_id const id = shader_of(ids, begin, none);
+  shader_id const id = detail::shader_of(ids, begin, none);
   for (; end - begin >= step; begin += step) {
     Ids const here = ids_from(ids, begin);
     shader_id differences = 0;
-    for (request_index i = 0; i < step; ++i) differences |= shader_of(here, i, none) ^ id;
+    for (request_index i = 0; i < step; ++i) differences |= detail::shader_of(here, i, none) ^ id;
     if (differences != 0) break;
   }
-  while (begin < end && shader_of(ids, begin, none) == id) ++begin;
+  while (begin < end && detail::shader_of(ids, begin, none) == id) ++begin;
   return begin;
 }
 
@@ -93,14 +94,13 @@ bool run_long_stretches(Ids const& ids, request_index first, request_index size,
   constexpr shader_id none = sizeof...(Shaders);
   constexpr request_index long_stretch = 64;
   request_index const end = first + size;
-  request_index ends[Tile / long_stretch + 1];
-  request_index stretches = 0;
+  request_index ends[Tile / long_stretch + 1], stretches = 0;
   for (request_index begin = first; begin < end; begin = ends[stretches++]) {
     if (stretches > size / long_stretch) return false;
     ends[stretches] = end_of_stretch(ids, begin, end, none);
   }
   for (request_index k = 0, begin = first; k < stretches; begin = ends[k++]) {
-    shaders.visit(shader_of(ids, begin, none), [&](auto const& shader) {
+    shaders.visit(detail::shader_of(ids, begin, none), [&](auto const& shader) {
       run_segment(
           shader, ends[k] - begin,
           [begin](std::size_t j) { return begin + static_cast<request_index>(j); },
@@ -110,29 +110,30 @@ bool run_long_stretches(Ids const& ids, request_index first, request_index size,
   return true;
 }
 
-/// Sorts every tile and runs its requests shader by shader.
-template <request_index Tile, class Policy, class Ids, class... Shaders>
-void run_sorted_tiles(Policy const& exec, request_index n, Ids ids,
-                      shader_table<Shaders...> const& shaders) {
-  for_each_tile<Tile>(exec, n, [n, ids, &shaders](request_index first, request_index size) {
-    if (run_long_stretches<Tile>(ids, first, size, shaders)) return;
-    sorted_tile<sizeof...(Shaders), Tile> tile;
-    counting_sort(ids, first, size, tile);
-    // The next tile, which mostly is the same worker's, in the order in which it lies.
-    std::size_t next = std::size_t{first} + size;
-    shaders.for_each([&](auto id, auto const& shader) {
-      std::uint16_t const* const order = tile.order + tile.offsets[id];
-      std::size_t const count = tile.offsets[id + 1] - tile.offsets[id];
-      run_segment(
-          shader, count, [=](std::size_t j) { return first + order[j]; },
-          [n, next, &shaders](std::size_t j) {
-            if (next + j >= n) return;
-            prefetch_records(shaders.template get<shader_table<Shaders...>::first_id()>(),
-                             static_cast<request_index>(next + j));
-          });
-      next += count;
-    });
-  });
+/// Sorts every tile by counting and runs its requests shader by shader.
+template <class Policy, class Ids, class... Shaders>
+void run_tiles(host_system, counting, Policy const& exec, request_index n, Ids ids,
+               shader_table<Shaders...> const& shaders) {
+  for_each_tile<counting::tile>(
+      exec, n, [n, ids, &shaders](request_index first, request_index size) {
+        if (run_long_stretches<counting::tile>(ids, first, size, shaders)) return;
+        sorted_tile<sizeof...(Shaders), counting::tile> tile;
+        counting_sort(ids, first, size, tile);
+        // The next tile, which mostly is the same worker's, in the order in which it lies.
+        std::size_t next = std::size_t{first} + size;
+        shaders.for_each([&](auto id, auto const& shader) {
+          std::uint16_t const* const order = tile.order + tile.offsets[id];
+          std::size_t const count = tile.offsets[id + 1] - tile.offsets[id];
+          run_segment(
+              shader, count, [=](std::size_t j) { return first + order[j]; },
+              [n, next, &shaders](std::size_t j) {
+                if (next + j >= n) return;
+                prefetch_records(shaders.template get<shader_table<Shaders...>::first_id()>(),
+                                 static_cast<request_index>(next + j));
+              });
+          next += count;
+        });
+      });
 }
 
 /// A key to sort a tile by: the shader above the position in the tile, so that requests of one

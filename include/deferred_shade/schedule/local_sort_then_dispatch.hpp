@@ -16,18 +16,13 @@ namespace deferred_shade {
 namespace detail {
 
 template <class Policy, class Ids, class... Shaders>
-void run_tiles(host_system, counting, Policy const& exec, request_index n, Ids ids,
-               shader_table<Shaders...> const& shaders) {
-  run_sorted_tiles<counting::tile>(exec, n, ids, shaders);
-}
-
-template <class Policy, class Ids, class... Shaders>
 void run_tiles(host_system, bitonic, Policy const& exec, request_index n, Ids ids,
                shader_table<Shaders...> const& shaders) {
   for_each_tile<bitonic::tile>(exec, n, [ids, &shaders](request_index first, request_index size) {
     std::uint32_t keys[bitonic::tile];
     for (request_index i = 0; i < size; ++i) {
-      keys[i] = bitonic_key<sizeof...(Shaders)>(shader_of(ids, first + i, sizeof...(Shaders)), i);
+      keys[i] =
+          bitonic_key<sizeof...(Shaders)>(detail::shader_of(ids, first + i, sizeof...(Shaders)), i);
     }
     std::fill(keys + size, keys + bitonic::tile, 0xffffffffU);
     bitonic_sort(keys);

@@ -47,9 +47,7 @@ struct variants {
   /// equals; `count` where none has.
   template <std::size_t Shaders>
   static std::size_t covering(std::bitset<Shaders> const& occurring) {
-    std::size_t best = count;
-    std::size_t best_size = Shaders + 1;
-    std::size_t number = 0;
+    std::size_t best = count, best_size = Shaders + 1, number = 0;
     auto const consider = [&](bool covers, std::size_t size) {
       if (covers && size < best_size) {
         best = number;
@@ -114,11 +112,7 @@ struct specialized {
 template <class Schedule, class Variants, std::size_t Shaders>
 specialized(Schedule, Variants, std::bitset<Shaders>) -> specialized<Schedule, Variants, Shaders>;
 
-namespace detail {
-
 template <class Schedule, class Variants, std::size_t Shaders>
-inline constexpr bool takes_gaps<specialized<Schedule, Variants, Shaders>> = true;
-
-}  // namespace detail
+inline constexpr bool detail::takes_gaps<specialized<Schedule, Variants, Shaders>> = true;
 
 }  // namespace deferred_shade

@@ -13,10 +13,10 @@ namespace deferred_shade {
 namespace detail {
 
 template <class Policy, class Ids, class... Shaders, class Workspace>
-void run_windows(host_system, Policy const& exec, request_index n, Ids ids,
+void run_windows(host_system here, Policy const& exec, request_index n, Ids ids,
                  shader_table<Shaders...> const& shaders, Workspace& scratch) {
   [[maybe_unused]] auto const dispatched = scratch.begin_phase({"dispatch"});
-  run_sorted_tiles<counting::tile>(exec, n, ids, shaders);
+  run_tiles(here, counting{}, exec, n, ids, shaders);
 }
 
 }  // namespace detail

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <type_traits>
 #include <utility>
 
 #include <deferred_shade/cuda/configuration.hpp>
@@ -19,7 +21,7 @@ __global__ void masked_kernel(bool first, Count n, Ids ids, Shader const __grid_
   independent_kernel const among_those_of_all_shaders(first);
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   auto const i = static_cast<request_index>(p);
-  if (p < size_of(n) && shader_of(ids, i, Shaders) == Id) shader(i);
+  if (p < size_of(n) && detail::shader_of(ids, i, Shaders) == Id) shader(i);
 }
 
 /// Runs one shader on its segment. The grid does not know how long that is: a block takes one

@@ -24,7 +24,7 @@ __global__ void switch_kernel(Count n, Ids ids,
   begin_after_earlier_kernels();
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   auto const i = static_cast<request_index>(p);
-  if (p < size_of(n)) shaders.run(shader_of(ids, i, sizeof...(Shaders)), i);
+  if (p < size_of(n)) shaders.run(detail::shader_of(ids, i, sizeof...(Shaders)), i);
 }
 
 /// The same for record shaders: all lanes load their requests at a time and store their results at
@@ -40,7 +40,7 @@ __global__ void records_kernel(Count n, Ids ids,
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   if (p >= size_of(n)) return;
   auto const i = static_cast<request_index>(p);
-  shader_id const id = shader_of(ids, i, sizeof...(Shaders));
+  shader_id const id = detail::shader_of(ids, i, sizeof...(Shaders));
   if (id == sizeof...(Shaders)) return;
 
   auto const at_place = [&](auto const& f) {
@@ -52,12 +52,13 @@ __global__ void records_kernel(Count n, Ids ids,
   };
   alignas(request) unsigned char in[sizeof(request)];
   alignas(result) unsigned char out[sizeof(result)];
-  at_place([&](auto const& shader) { new (in) request(load(shader.source, i)); });
+  at_place([&](auto const& shader) { new (in) request(detail::load(shader.source, i)); });
   shaders.visit(id, [&](auto const& shader) {
     new (out) result(shader.function(*reinterpret_cast<request const*>(in)));
   });
-  at_place(
-      [&](auto const& shader) { store(shader.sink, i, *reinterpret_cast<result const*>(out)); });
+  at_place([&](auto const& shader) {
+    detail::store(shader.sink, i, *reinterpret_cast<result const*>(out));
+  });
 }
 
 /// Runs the requests of a grouping through the shaders of their segments.

@@ -24,7 +24,7 @@ struct names_shader {
   Ids ids;
   shader_id id;
   __device__ bool operator()(request_index i) const {
-    return i < size_of(n) && shader_of(ids, i, Shaders) == id;
+    return i < size_of(n) && detail::shader_of(ids, i, Shaders) == id;
   }
 };
 
@@ -62,7 +62,7 @@ grouping compact_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Wor
                           std::bitset<Shaders> const& wanted) {
   std::size_t const maximum = maximum_of(n);
   cudaStream_t const stream = stream_of(exec);
-  cudaGetLastError();  // CUB would take what the renderer left there for an error of its own
+  forget_earlier_error();
   thrust::counting_iterator<request_index> const requests(0);
   // The segment of a shader begins at `*begin`, where the one before ends: its launch has written
   // that.

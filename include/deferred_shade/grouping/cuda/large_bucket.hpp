@@ -92,6 +92,7 @@ grouping large_bucket_grouping(cudaStream_t stream, Count n, Ids ids, Workspace&
                                       static_cast<std::int64_t>(tiles * Shaders + 1), stream),
         "bucket scan");
   };
+  forget_earlier_error();
   std::size_t bytes = 0;
   scan(nullptr, bytes, nullptr);
   auto const [permutation, counts, memory, offsets] =

@@ -22,7 +22,7 @@ __global__ void radix_pairs_kernel(std::size_t maximum, Count n, Ids ids, Key* k
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   if (p >= maximum) return;
   auto const i = static_cast<request_index>(p);
-  keys[i] = static_cast<Key>(i < size_of(n) ? shader_of(ids, i, Shaders) : Shaders);
+  keys[i] = static_cast<Key>(i < size_of(n) ? detail::shader_of(ids, i, Shaders) : Shaders);
   indices[i] = i;
 }
 
@@ -48,7 +48,7 @@ grouping radix_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Works
   constexpr std::uint32_t threads = 256;
   std::size_t const maximum = maximum_of(n);
   cudaStream_t const stream = stream_of(exec);
-  cudaGetLastError();  // CUB would take what the renderer left there for an error of its own
+  forget_earlier_error();
   auto const sort = [&](void* memory, std::size_t& bytes, cub::DoubleBuffer<key>& keys,
                         cub::DoubleBuffer<request_index>& indices) {
     check_cuda(cub::DeviceRadixSort::SortPairs(memory, bytes, keys, indices,

@@ -71,7 +71,7 @@ __global__ void __launch_bounds__(bitonic::tile)
   auto const first = static_cast<request_index>(tile);
   std::uint32_t key = 0xffffffffU;
   if (tile + t < end) {
-    key = bitonic_key<sizeof...(Shaders)>(shader_of(ids, first + t, sizeof...(Shaders)), t);
+    key = bitonic_key<sizeof...(Shaders)>(detail::shader_of(ids, first + t, sizeof...(Shaders)), t);
   }
   // Each pair of lanes compares what each other holds; one keeps the smaller and one the larger
   // key.
@@ -113,7 +113,7 @@ void run_tiles(cuda_system, counting, Policy const& exec, Count n, Ids ids,
   } else if constexpr (staging<Shaders...>::possible) {
     run_staged(exec, n, ids, shaders);
   } else if constexpr (sizeof...(Shaders) <= most_packed_shaders) {
-    run_packed(exec, n, ids, shaders);
+    run_packed_tiles(exec, n, ids, shaders);
   } else {
     launch<&tile_kernel<Count, Ids, Shaders...>>(
         "local_sort_then_dispatch", stream_of(exec),

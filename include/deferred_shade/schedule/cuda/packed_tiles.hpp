@@ -67,7 +67,8 @@ void launch_packed(Policy const& exec, Count n, Ids ids, shader_table<Shaders...
 // way than in a plain switch, and the cache has room. Several for each thread fill warps better,
 // and are taken where the wave is so small that it is under way as a whole then.
 template <class Policy, class Count, class Ids, class... Shaders>
-void run_packed(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders) {
+void run_packed_tiles(Policy const& exec, Count n, Ids ids,
+                      shader_table<Shaders...> const& shaders) {
   std::size_t const maximum = maximum_of(n);
   auto const occupancy =
       occupancy_of<&packed_kernel<packed_items, Count, Ids, Shaders...>>(packed_threads);

@@ -90,7 +90,7 @@ __global__ void __launch_bounds__(staged_threads<Shaders...>)
     for (std::uint32_t p = threadIdx.x; p < size; p += threads) {
       if (shader_at[p] == sizeof...(Shaders)) continue;
       auto const& source = *reinterpret_cast<source_type const*>(sources[shader_at[p]]);
-      *reinterpret_cast<request*>(slot(p)) = load(source, first + p);
+      *reinterpret_cast<request*>(slot(p)) = detail::load(source, first + p);
     }
   }
   __pipeline_wait_prior(0);
@@ -104,8 +104,8 @@ __global__ void __launch_bounds__(staged_threads<Shaders...>)
   __syncthreads();
   for (std::uint32_t p = threadIdx.x; p < size; p += threads) {
     if (shader_at[p] == sizeof...(Shaders)) continue;
-    store(*reinterpret_cast<sink_type const*>(sinks[shader_at[p]]), first + p,
-          *reinterpret_cast<result const*>(slot(p)));
+    detail::store(*reinterpret_cast<sink_type const*>(sinks[shader_at[p]]), first + p,
+                  *reinterpret_cast<result const*>(slot(p)));
   }
 }
 
