@@ -11,7 +11,7 @@ namespace deferred_shade::detail {
 template <class To, class From>
 DEFERRED_SHADE_HOST_DEVICE To bits_as(From const& from) noexcept {
   static_assert(sizeof(To) == sizeof(From));
-#if DEFERRED_SHADE_HAS_GNU && (defined(__clang__) || __GNUC__ >= 11)
+#if DEFERRED_SHADE_HAS_GNU
   return __builtin_bit_cast(To, from);
 #else
   To to;

@@ -16,15 +16,10 @@
 #define DEFERRED_SHADE_EXEC_CHECK_DISABLE
 #endif
 
-/// Whether the compiler of this code for the host has GNU's builtins and attributes; and the one
-/// that shuffles vectors, which came later.
-#if defined(__GNUC__) && !defined(__CUDACC__)
+/// Whether the compiler of this code for the host has GNU's builtins, attributes and vectors: g++
+/// from 12 on, whose builtins shuffle vectors, and clang.
+#if defined(__GNUC__) && (defined(__clang__) || __GNUC__ >= 12) && !defined(__CUDACC__)
 #define DEFERRED_SHADE_HAS_GNU 1
 #else
 #define DEFERRED_SHADE_HAS_GNU 0
-#endif
-#if DEFERRED_SHADE_HAS_GNU && (defined(__clang__) || __GNUC__ >= 12)
-#define DEFERRED_SHADE_HAS_SHUFFLE 1
-#else
-#define DEFERRED_SHADE_HAS_SHUFFLE 0
 #endif

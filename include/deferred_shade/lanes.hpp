@@ -21,7 +21,7 @@ inline constexpr bool has_words =
         std::is_copy_assignable_v<T> &&
     !std::is_empty_v<T> && sizeof(T) % 4 == 0 && sizeof(T) <= 256;
 
-#if DEFERRED_SHADE_HAS_SHUFFLE
+#if DEFERRED_SHADE_HAS_GNU
 /// What most CPUs load and store at a time at least.
 using four_words = std::uint32_t __attribute__((vector_size(16)));
 
@@ -62,7 +62,7 @@ class lanes {
   }
   /// Four records to `lane` and the lanes after it.
   void copy(std::size_t lane, T const& a, T const& b, T const& c, T const& d) noexcept {
-#if DEFERRED_SHADE_HAS_SHUFFLE
+#if DEFERRED_SHADE_HAS_GNU
     constexpr std::size_t shuffled = count / 4 * 4;
     for (std::size_t word = 0; word < shuffled; word += 4) {
       four_words out[4] = {words_of(a, word), words_of(b, word), words_of(c, word),
@@ -92,7 +92,7 @@ class lanes {
   void set(std::size_t lane, words const& record, std::index_sequence<Word...>) noexcept {
     ((words_[Word][lane] = record.word[Word]), ...);
   }
-#if DEFERRED_SHADE_HAS_SHUFFLE
+#if DEFERRED_SHADE_HAS_GNU
   static four_words words_of(T const& record, std::size_t first) noexcept {
     four_words words;
     std::memcpy(&words, reinterpret_cast<unsigned char const*>(&record) + 4 * first, 16);

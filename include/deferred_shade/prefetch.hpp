@@ -18,12 +18,10 @@ enum class cache { none, second_level = 2, first_level = 3 };
 template <cache To, class Pointer>
 void prefetch([[maybe_unused]] Pointer const& pointer, [[maybe_unused]] request_index i) noexcept {
 #if DEFERRED_SHADE_HAS_GNU
-  if constexpr (To != cache::none && std::is_pointer_v<Pointer>) {
-    using record = std::remove_pointer_t<Pointer>;
-    if constexpr (std::is_object_v<record>) {
-      auto const address = reinterpret_cast<std::uintptr_t>(pointer) + sizeof(record) * i;
-      __builtin_prefetch(reinterpret_cast<void const*>(address), 0, static_cast<int>(To));
-    }
+  if constexpr (To != cache::none && std::is_pointer_v<Pointer> &&
+                std::is_object_v<std::remove_pointer_t<Pointer>>) {
+    auto const address = reinterpret_cast<std::uintptr_t>(pointer) + sizeof(*pointer) * i;
+    __builtin_prefetch(reinterpret_cast<void const*>(address), 0, static_cast<int>(To));
   }
 #endif
 }

@@ -28,8 +28,8 @@ Ids ids_from(Ids const& ids, request_index first) {
 template <shader_id Shaders, class Ids>
 void load_keys(Ids const& ids, std::size_t size, sort_key<Shaders>* __restrict keys) {
   for (std::size_t i = 0; i < size; ++i) {
-    keys[i] =
-        static_cast<sort_key<Shaders>>(shader_of(ids, static_cast<request_index>(i), Shaders));
+    keys[i] = static_cast<sort_key<Shaders>>(
+        detail::shader_of(ids, static_cast<request_index>(i), Shaders));
   }
 }
 
@@ -169,33 +169,54 @@ request_index quarters_same(Key const* keys, request_index size) {
   return looks == 0 ? 0 : 4 * same / looks;
 }
 
-/// The same as key_counts::place with no counts of these keys, one after the other. What lies
-/// behind a place is prefetched into the cache `Ahead`: processors do so by themselves too late,
-/// and for many places not at all. `none` is for places that are near each other.
+/// Puts one number to the place of its key. What lies behind that is prefetched into the cache
+/// `Ahead`: processors do so by themselves too late, and for many places not at all. `none` is for
+/// places that are near each other.
+template <cache Ahead, class Number>
+void place_one(std::size_t key, Number number, std::uint32_t* next, Number* places) {
+  std::uint32_t const place = next[key]++;
+  places[place] = number;
+  prefetch<Ahead>(places, place + 128 / sizeof(Number));
+}
+
+/// The same as key_counts::place with no counts of these keys, one after the other.
+template <cache Ahead, class Key, class Number>
+void place_each(Key const* keys, request_index size, Number first, std::uint32_t* next,
+                Number* places) {
+  request_index i = 0;
+#if DEFERRED_SHADE_HAS_GNU && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+  if constexpr (Ahead == cache::second_level) {  // loads are many: eight bytes of keys by one
+    for (std::uint64_t word; size - i >= sizeof word / sizeof(Key);) {
+      std::memcpy(&word, keys + i, sizeof word);
+      for (std::size_t bit = 0; bit < 64; bit += 8 * sizeof(Key), ++i) {
+        place_one<Ahead>(static_cast<Key>(word >> bit), static_cast<Number>(first + i), next,
+                         places);
+      }
+    }
+  }
+#endif
+  for (; i < size; ++i) place_one<Ahead>(keys[i], static_cast<Number>(first + i), next, places);
+}
+
+/// As place_each, but those that are the same take one look at `next`, where each would wait for
+/// the one before.
 template <cache Ahead, class Key, class Number>
 void place_by_keys(Key const* keys, request_index size, Number first, std::uint32_t* next,
                    Number* places) {
   request_index i = 0;
-  auto const place_up_to = [&](request_index end) {
-    for (; i < end; ++i) {
-      std::uint32_t const place = next[keys[i]]++;
-      places[place] = static_cast<Number>(first + i);
-      prefetch<Ahead>(places, place + 128 / sizeof(Number));
-    }
-  };
-  // Those that are the same take one look at `next`, where each would wait for the one before.
-  for (bool const coherent = quarters_same(keys, size) > 0; coherent && size - i >= key_step;) {
+  for (bool const coherent = quarters_same(keys, size) > 0; coherent && size - i >= key_step;
+       i += key_step) {
+    auto const number = static_cast<Number>(first + i);
     if (are_same(keys + i)) {
       Number* const here = places + next[keys[i]];
       next[keys[i]] += key_step;
       prefetch<Ahead>(here, 320 / sizeof(Number));
-      for (request_index j = 0; j < key_step; ++j) here[j] = static_cast<Number>(first + i + j);
-      i += key_step;
+      for (request_index j = 0; j < key_step; ++j) here[j] = static_cast<Number>(number + j);
     } else {
-      place_up_to(i + key_step);
+      place_each<Ahead>(keys + i, key_step, number, next, places);
     }
   }
-  place_up_to(size);
+  place_each<Ahead>(keys + i, size - i, static_cast<Number>(first + i), next, places);
 }
 
 }  // namespace deferred_shade::detail
