@@ -25,7 +25,7 @@ FAULTS = [
     ("docs/paper.md", "<!-- end of report", "<!-- end of raport", r"paper\.md:\d+: a marker that is none"),
     ("docs/paper.md", r"(<!-- plot: .*-->)", r"\g<1>\n", r"paper\.md:\d+: .*a plot without its picture"),
     ("docs/paper.md", " kind=record", " sort=record", r"paper\.md:\d+: .*unexpected keyword argument 'sort'"),
-    ("README.md", r"at (<!-- report: span)", r"\g<1>", r"README\.md:\d+: .* begins it"),
+    ("README.md", r"\n[^\n]* (<!-- report: span)", r"\n\g<1>", r"README\.md:\d+: .* begins it"),
     (RAW + "h200-schedules.json", None, None, r"paper\.md:\d+: .*there is no raw data h200-schedules\.json"),
     (RAW + "h200-schedules.json", '"real_time"', '"time"', r"md:\d+: .*h200-schedules\.json.*has no 'real_time'"),
     (RAW + "h200-schedules.json", "local-bitonic", "bitonic", r"md:\d+: .*h200-schedules\.json.*no 'local-bitonic'"),
