@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Covers counts.hpp as well, and in a CUDA build cuda/host_copy.hpp, which brings ids to the host.
 #include <deferred_shade/statistics.hpp>
 
 #include <algorithm>

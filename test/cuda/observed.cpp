@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // An observer of waves on a GPU, which puts events around the work of each phase.
+// Covers cuda/renumbered.hpp as well.
 #include <deferred_shade/observed.hpp>
 
 #include <cuda_runtime_api.h>

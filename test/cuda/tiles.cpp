@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tiles of local_sort_then_dispatch and the windows of window_sort_then_dispatch on a GPU, on
 // both sides of each size of a table at which they are sorted, or their records moved, in another
-// way.
+// way. Covers cuda/tile_rows.hpp as well.
 #include <cstdint>
 #include <deferred_shade/schedule/local_sort_then_dispatch.hpp>
 #include <deferred_shade/schedule/window_sort_then_dispatch.hpp>

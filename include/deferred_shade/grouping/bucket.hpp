@@ -54,7 +54,7 @@ grouping bucket_grouping(host_system, Policy const& exec, request_index n, Ids i
   // The first-level cache has room for what lies ahead of so many shaders.
   constexpr cache ahead = Shaders <= 64 ? cache::first_level : cache::second_level;
   for_each_block(exec, blocks, [=, counts = counts, permutation = permutation](std::size_t b) {
-    // The first-level cache has other uses.
+    // Few keys at a time: the first-level cache is for the lines that are written.
     for_each_chunk<Shaders, 512>(ids, blocks.begin(b), blocks.end(b),
                                  [&](auto const* keys, request_index first, request_index size) {
                                    place_by_keys<ahead>(keys, size, first, counts + b * columns,
