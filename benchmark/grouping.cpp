@@ -7,7 +7,7 @@
 
 #include "axes.hpp"
 #include "baselines.hpp"
-#include "wave.hpp"
+#include "batch.hpp"
 
 namespace {
 
@@ -72,14 +72,14 @@ bool is_right(Group& group, std::uint8_t const* ids, std::size_t n) {
 }
 
 /// What varies from cell to cell.
-struct wave_shape {
+struct batch_shape {
   ds::shader_id shaders;
   std::size_t n;
   std::uint32_t run;
 };
 
 template <class Make>
-void add(wave_shape shape, std::string const& name, Make make) {
+void add(batch_shape shape, std::string const& name, Make make) {
   bench::add_cell(
       std::to_string(shape.shaders) + " shaders/" + name + bench::name_of(shape.n, shape.run),
       [=](benchmark::State& state) {
@@ -93,16 +93,16 @@ void add(wave_shape shape, std::string const& name, Make make) {
 /// A way to group that is made for a number of requests, or for that and a number of shaders.
 template <class Group>
 auto for_size() {
-  return [](wave_shape shape) { return Group{static_cast<request_index>(shape.n)}; };
+  return [](batch_shape shape) { return Group{static_cast<request_index>(shape.n)}; };
 }
 template <class Group>
 auto for_shape() {
-  return [](wave_shape shape) { return Group(shape.n, shape.shaders); };
+  return [](batch_shape shape) { return Group(shape.n, shape.shaders); };
 }
 
 template <ds::shader_id Shaders>
 void add_all(std::size_t n, std::uint32_t run) {
-  wave_shape const shape{Shaders, n, run};
+  batch_shape const shape{Shaders, n, run};
   add(shape, "copy-5-bytes", for_shape<bench::copy_5_bytes>());
   add(shape, "bucket", for_size<bucket<Shaders>>());
   add(shape, "radix-sort", for_size<radix_sort<Shaders>>());

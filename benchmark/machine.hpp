@@ -81,7 +81,7 @@ void for_each_request(std::size_t n, Function f) {
 }
 
 /// The seconds that each of `calls` calls of `f` takes, between two events on the stream. Caches
-/// are as the call before left them, which is no matter for waves that are larger than a cache.
+/// are as the call before left them, which is no matter for batches that are larger than a cache.
 template <class Function>
 std::vector<double> seconds_per_call(Function const& f, int calls) {
   cudaEvent_t begin{};

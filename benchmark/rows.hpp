@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "wave.hpp"
+#include "batch.hpp"
 
 namespace bench {
 
-/// One way to run the requests of a wave through their shaders.
+/// One way to run the requests of a batch through their shaders.
 struct row {
   std::string shaders;   ///< "index" or "record"
   std::string schedule;  ///< as the report calls it

@@ -25,7 +25,7 @@ from reporting.running import commit_of
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PICTURED = ("implicit", "local-bitonic")
-COUNTED = {"width": 1280, "height": 720, "spp": 1, "max-depth": len(EFFICIENCY)}  # one wave, a path for each pixel
+COUNTED = {"width": 1280, "height": 720, "spp": 1, "max-depth": len(EFFICIENCY)}  # one batch, a path for each pixel
 TIMED = {"width": 480, "height": 270, "spp": 1, "max-depth": 8}
 TIMED_ON_CUDA = {"width": 1280, "height": 720, "spp": 8, "max-depth": 8}
 SHOWN = {"width": 256, "height": 144, "spp": 256, "max-depth": 16}
@@ -99,7 +99,7 @@ def write_reports(arguments):
         for _ in range(arguments.repetitions if is_timed else 1):
             report = report_of(arguments.path_tracer, scene, settings)
             result["reports"].append(keep(report, ["schedule", "seconds"], ["group_ms", "total_ms"]) if is_timed else
-                                     keep(report, ["schedule"], ["requests", "efficiency", "first_wave_by_shader"]))
+                                     keep(report, ["schedule"], ["requests", "efficiency", "first_batch_by_shader"]))
         write(arguments.output, result)  # what is measured is not lost if the rest is interrupted
         print(scene.name, flush=True)
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every schedule over sets of shaders, kinds of shaders, coherences of ids and sizes of waves, and
-// as controls:
+// Every schedule over sets of shaders, kinds of shaders, coherences of ids and sizes of batches,
+// and as controls:
 //   oracle-launches   requests that already lie sorted in memory, nothing to schedule: a launch per
 //   oracle-switch     shader, or one launch with a switch
 //   switch            requests as they come, one launch in which each shader loads and stores for
@@ -32,39 +32,39 @@ std::vector<shader_set> shader_sets() {
           {"32 mixed", bench::rows_of<bench::shader_set<8, 16, 8>>()}};
 }
 
-/// The wave of the cells that are running: consecutive cells share one.
-struct current_wave {
+/// The batch of the cells that are running: consecutive cells share one.
+struct current_batch {
   std::string name;
-  std::unique_ptr<bench::wave> wave;
+  std::unique_ptr<bench::batch> batch;
 
-  /// The wave `name_`, its reference checked; null where that is wrong.
+  /// The batch `name_`, its reference checked; null where that is wrong.
   template <class Make>
-  bench::wave* get(std::string const& name_, Make const& make) {
+  bench::batch* get(std::string const& name_, Make const& make) {
     if (name != name_) {
       name.clear();
-      wave.reset();  // before the next one takes memory
-      wave = make();
+      batch.reset();  // before the next one takes memory
+      batch = make();
       name = name_;
     }
-    return wave.get();
+    return batch.get();
   }
 };
 
 /// `current` and `set` are used as long as cells run.
-void add_cells(current_wave& current, shader_set const& set, std::size_t n, std::uint32_t run) {
+void add_cells(current_batch& current, shader_set const& set, std::size_t n, std::uint32_t run) {
   std::string const end = bench::name_of(n, run);
   for (bench::row const& row : set.list.rows) {
     auto const cell = [&current, &set, &row, n, run, end](benchmark::State& state) {
-      auto* const wave = current.get(set.name + end, [&] {
-        auto made = std::make_unique<bench::wave>(n, set.list.shaders, run);
+      auto* const batch = current.get(set.name + end, [&] {
+        auto made = std::make_unique<bench::batch>(n, set.list.shaders, run);
         auto const& implicit = *std::find_if(
             set.list.rows.begin(), set.list.rows.end(),
             [](bench::row const& candidate) { return candidate.schedule == "implicit"; });
         bool const right = made->take_reference(implicit.shade, set.list.plain_loop);
         return right ? std::move(made) : nullptr;
       });
-      if (!bench::check(state, wave != nullptr && wave->agrees(row.shade, row.sorted))) return;
-      bench::view const requests = wave->requests(row.sorted);
+      if (!bench::check(state, batch != nullptr && batch->agrees(row.shade, row.sorted))) return;
+      bench::view const requests = batch->requests(row.sorted);
       bench::measure(state, n, [&] { row.shade(requests); });
     };
     bench::add_cell(set.name + "/" + row.shaders + "/" + row.schedule + end, cell);
@@ -74,7 +74,7 @@ void add_cells(current_wave& current, shader_set const& set, std::size_t n, std:
 }  // namespace
 
 int main(int argc, char** argv) {
-  current_wave current;
+  current_batch current;
   std::vector<shader_set> const sets = shader_sets();
   return bench::run(argc, argv, [&](bool quick) {
     auto const [sizes, runs] = bench::schedule_axes(quick);

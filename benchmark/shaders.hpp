@@ -76,7 +76,7 @@ struct simple {
 };
 
 /// About 200 operations: a microfacet lobe (Trowbridge and Reitz's distribution, Schlick's Fresnel
-/// term) under four to six lights, each behind a wave pattern.
+/// term) under four to six lights, each behind a batch pattern.
 template <int Id>
 struct moderate {
   static constexpr int lights = 4 + Id % 3;
@@ -98,10 +98,10 @@ struct moderate {
       float const toward = std::fabs(r.normal[2] + 0.1F * number * r.normal[0]);
       float const masking =
           1 / (toward + std::sqrt(alpha2 + (1 - alpha2) * toward * toward) + 1e-4F);
-      float const wave = 1 + 0.5F * std::sin(9 * r.u + 5 * r.v + number + Id);
+      float const batch = 1 + 0.5F * std::sin(9 * r.u + 5 * r.v + number + Id);
       out.radiance[0] += distribution * fresnel * masking * 0.01F;
-      out.radiance[1] += distribution * masking * wave * 0.02F;
-      out.radiance[2] += fresnel * masking * wave;
+      out.radiance[1] += distribution * masking * batch * 0.02F;
+      out.radiance[2] += fresnel * masking * batch;
     }
     return out;
   }

@@ -18,7 +18,7 @@
 #endif
 
 #include "axes.hpp"
-#include "wave.hpp"
+#include "batch.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What regrouping gains on CPUs where shaders can run in vectors: materials of a hundred operations
 // and more, 12 floats in and 3 out, without a branch or a call. Every schedule that runs records in
-// vectors, and as controls `implicit`, requests as they come through the switch, and waves of one
+// vectors, and as controls `implicit`, requests as they come through the switch, and batches of one
 // material, which need no grouping. The names of cells are those of benchmark_schedules. The
 // runtime says how many threads work: OpenMP by OMP_NUM_THREADS.
 #include <cmath>
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "axes.hpp"
-#include "wave.hpp"
+#include "batch.hpp"
 
 namespace {
 
@@ -139,14 +139,14 @@ surface make_surface(ds::request_index i) {
 }
 
 /// The requests of one cell, and what comes out.
-struct wave {
+struct batch {
   std::vector<surface> surfaces;
   std::vector<std::uint8_t> ids;
   std::vector<radiance> expected;
   std::vector<radiance> results;
 
   template <int... Ids>
-  wave(std::size_t n, std::uint32_t run, std::integer_sequence<int, Ids...>)
+  batch(std::size_t n, std::uint32_t run, std::integer_sequence<int, Ids...>)
       : surfaces(n), ids(n), expected(n), results(n) {
     auto const made = bench::make_ids(n, sizeof...(Ids), run);
     thrust::copy(made.begin(), made.end(), ids.begin());
@@ -177,14 +177,14 @@ struct wave {
   }
 };
 
-/// The wave of the cells that are running.
-struct current_wave {
+/// The batch of the cells that are running.
+struct current_batch {
   std::string name;
-  std::unique_ptr<wave> made;
+  std::unique_ptr<batch> made;
 };
 
 template <int Materials>
-void add_set(current_wave& current, std::size_t n, std::uint32_t run) {
+void add_set(current_batch& current, std::size_t n, std::uint32_t run) {
   using ids = std::make_integer_sequence<int, Materials>;
   std::string const set = std::to_string(Materials) + " materials";
   std::string const end = bench::name_of(n, run);
@@ -192,10 +192,10 @@ void add_set(current_wave& current, std::size_t n, std::uint32_t run) {
     auto const cell = [&current, n, run, schedule, name = set + end](benchmark::State& state) {
       if (current.name != name) {
         current.made.reset();
-        current.made = std::make_unique<wave>(n, run, ids());
+        current.made = std::make_unique<batch>(n, run, ids());
         current.name = name;
       }
-      wave& w = *current.made;
+      batch& w = *current.made;
       auto const shade = [&] {
         ds::shade(bench::policy(), schedule, n, w.ids.data(), w.table(ids()), bench::scratch());
       };
@@ -217,7 +217,7 @@ void add_set(current_wave& current, std::size_t n, std::uint32_t run) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  current_wave current;
+  current_batch current;
   return bench::run(argc, argv, [&](bool quick) {
     std::vector<std::size_t> const sizes =
         quick ? std::vector{1_mi / 32} : std::vector{1_mi / 8, 4_mi};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A wave on a GPU: the number of requests stays in device memory, and the whole step is captured
+// A batch on a GPU: the number of requests stays in device memory, and the whole step is captured
 // into a CUDA graph once and launched for every bounce.
 #include <thrust/device_vector.h>
 #include <thrust/host_vector.h>
@@ -20,7 +20,7 @@ int main() {
   thrust::device_vector<std::uint8_t> const material(
       thrust::host_vector<std::uint8_t>{0, 1, 0, 255, 1, 0});  // 255: this path has ended
   thrust::device_vector<float> radiance(most, 8.0F);
-  thrust::device_vector<int> alive(1, 5);  // the last request is not in the wave
+  thrust::device_vector<int> alive(1, 5);  // the last request is not in the batch
 
   cudaStream_t stream{};
   cudaStreamCreate(&stream);

@@ -10,7 +10,7 @@
 
 using deferred_shade::detail::block_partition;
 
-TEST_CASE("blocks cover a wave once, in order", "[blocks]") {
+TEST_CASE("blocks cover a batch once, in order", "[blocks]") {
   for (std::size_t const n : {0UL, 1UL, 16383UL, 16384UL, 16385UL, 40000000UL, 4294967295UL}) {
     for (std::size_t const shaders : {1UL, 11UL, 256UL, 100000UL}) {
       CAPTURE(n, shaders);

@@ -81,7 +81,7 @@ for number in range(100):
     expect((picture, text) == (wanted, printed), f"the picture with schedule {number} is the same")
     reports.append(re.sub(r", \d+\.\d+ ms$", "", report, flags=re.MULTILINE))
 expect(1 < len(reports) < 100, f"there are a few schedules, and not {len(reports)}")
-expect(len(set(reports)) == 1, "the schedules report the same waves")
+expect(len(set(reports)) == 1, "the schedules report the same batches")
 lines = reports[0].splitlines()
 expect(len(lines) == int(re.search(r"(\d+) steps", printed)[1]), "each step is reported")
 found = [re.fullmatch(rf"{width * height} requests, efficiency ([01]\.\d+)", line) for line in lines]

@@ -93,7 +93,7 @@ TEST_CASE("shaders that are not expected or not in the table are not told of", "
         "group{}dispatch{shader 2 of 3{}}");
 }
 
-TEST_CASE("an empty wave has no phases, and one that no shader is named in has no shader",
+TEST_CASE("an empty batch has no phases, and one that no shader is named in has no shader",
           "[observed]") {
   auto const one = ds::shader_table{nothing{}};
   test::for_each_schedule(
@@ -147,7 +147,7 @@ TEST_CASE("threads with a workspace each have observers each", "[observed]") {
   for (std::string const& text : texts) CHECK(text == texts[0]);
 }
 
-TEMPLATE_LIST_TEST_CASE("an observed wave runs as one that is not", "[observed]",
+TEMPLATE_LIST_TEST_CASE("an observed batch runs as one that is not", "[observed]",
                         test::host_backends) {
   test::for_each_schedule([](auto const& schedule) {
     auto const observed = [&](auto const& exec, auto n, auto ids, auto const& table,

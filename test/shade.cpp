@@ -37,7 +37,7 @@ struct counting_runs {
 
 }  // namespace
 
-TEMPLATE_LIST_TEST_CASE("shade refuses a count that no wave has", "[shade]", test::backends) {
+TEMPLATE_LIST_TEST_CASE("shade refuses a count that no batch has", "[shade]", test::backends) {
   auto const exec = TestType::policy();
   auto const ids = test::on<TestType>(std::vector<std::uint8_t>(1, 0));
   auto runs = test::on<TestType>(std::vector<int>(1, 0));
@@ -51,7 +51,8 @@ TEMPLATE_LIST_TEST_CASE("shade refuses a count that no wave has", "[shade]", tes
   CHECK(message_of<std::invalid_argument>(shade(-5)) ==
         "deferred_shade::shade: n is -5, and a number of requests is not negative");
   std::string const too_long =
-      "deferred_shade::shade: n is 4294967296, and a wave holds at most 4294967295 requests: their "
+      "deferred_shade::shade: n is 4294967296, and a batch holds at most 4294967295 requests: "
+      "their "
       "indices have 32 bits";
   CHECK(message_of<std::length_error>(shade(std::size_t{1} << 32)) == too_long);
   CHECK(message_of<std::length_error>(shade(std::int64_t{1} << 32)) == too_long);
@@ -145,7 +146,7 @@ TEST_CASE("a table may have 256 shaders, all of which a byte names", "[shade]") 
   check(ds::window_sort_then_dispatch{});
 }
 
-TEMPLATE_LIST_TEST_CASE("waves of any size share a workspace, also after an error", "[shade]",
+TEMPLATE_LIST_TEST_CASE("batches of any size share a workspace, also after an error", "[shade]",
                         test::backends) {
   auto const exec = TestType::policy();
   ds::workspace scratch{exec};
@@ -164,7 +165,7 @@ TEMPLATE_LIST_TEST_CASE("waves of any size share a workspace, also after an erro
 }
 
 // Hidden, and run by name: they take their time, and a sanitizer many times as long.
-TEST_CASE("a wave of more than 1024 small blocks", "[.][large]") {
+TEST_CASE("a batch of more than 1024 small blocks", "[.][large]") {
   // Beyond 16777216 requests blocks grow. A sum for each shader stands for the order within it.
   ds::request_index const n = 16777216 + 12345;
   auto const ids = thrust::make_transform_iterator(
@@ -192,7 +193,7 @@ TEST_CASE("a wave of more than 1024 small blocks", "[.][large]") {
   check(ds::local_sort_then_dispatch<>{});
 }
 
-TEST_CASE("the largest wave", "[.][large]") {
+TEST_CASE("the largest batch", "[.][large]") {
   std::size_t const n = ds::max_requests;
   auto const ids = thrust::make_transform_iterator(
       thrust::counting_iterator<ds::request_index>(0),

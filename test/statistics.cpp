@@ -133,7 +133,7 @@ TEMPLATE_LIST_TEST_CASE("counts over many blocks are exact", "[statistics]", tes
   }
 }
 
-TEST_CASE("statistics refuse counts that no wave has", "[statistics]") {
+TEST_CASE("statistics refuse counts that no batch has", "[statistics]") {
   std::uint8_t const ids[1] = {0};
   CHECK_THROWS_AS(ds::count_occurrences(thrust::cpp::par, -1, &ids[0], 1), std::invalid_argument);
   CHECK_THROWS_AS(ds::count_occurrences(thrust::cpp::par, std::size_t{1} << 32, &ids[0], 1),

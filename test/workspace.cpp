@@ -115,7 +115,7 @@ TEST_CASE("a workspace refuses sizes that no memory has", "[workspace]") {
   CHECK(scratch.capacity() == 0);
 }
 
-TEST_CASE("what a wave takes does not fall when waves or tables grow", "[workspace]") {
+TEST_CASE("what a batch takes does not fall when batches or tables grow", "[workspace]") {
   // The sizes at which the number of blocks would fall: one more request, larger blocks.
   std::mt19937_64 engine(test::run_seed());
   CAPTURE(test::run_seed());
@@ -135,7 +135,7 @@ TEST_CASE("what a wave takes does not fall when waves or tables grow", "[workspa
   }
 }
 
-TEST_CASE("a warm workspace serves a wave of fewer requests in more blocks", "[workspace]") {
+TEST_CASE("a warm workspace serves a batch of fewer requests in more blocks", "[workspace]") {
   ledger book;
   ds::workspace scratch{ledger_allocator<std::byte>(book)};
   ds::request_index const n = 1024 * 16384;

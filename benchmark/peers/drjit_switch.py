@@ -38,7 +38,7 @@ N = 1 << 22
 Float, UInt32, Int32 = llvm.Float, llvm.UInt32, llvm.Int32
 
 
-# The requests, as benchmark/wave.hpp and vectors.cpp make them.
+# The requests, as benchmark/batch.hpp and vectors.cpp make them.
 def mixed(x):
     x = x ^ (x >> np.uint32(16))
     x = x * np.uint32(0x85ebca6b)

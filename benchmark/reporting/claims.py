@@ -47,7 +47,7 @@ def mixed(x):
 
 
 def ids_of(n, shaders, run):
-    """As benchmark/wave.hpp makes ids."""
+    """As benchmark/batch.hpp makes ids."""
     def bits(i, dimension):
         return mixed(mixed(i + 1) + dimension * 0x9e3779b1 & 0xffffffff)
     begin = 0

@@ -25,7 +25,7 @@ RESULT = 16  # bytes that benchmark_schedules stores for a request
 
 @dataclass(frozen=True)
 class Cell:
-    """What a schedule did with one wave: its kernels together, the one behind the other."""
+    """What a schedule did with one batch: its kernels together, the one behind the other."""
     shaders: str
     schedule: str
     run: int

@@ -31,7 +31,7 @@ def shaders(path):
     for report in read(path)["reports"]:
         total = {}
         for bounce in bounces_of(report, "implicit"):
-            for name, count in bounce["first_wave_by_shader"].items():
+            for name, count in bounce["first_batch_by_shader"].items():
                 total[name] = total.get(name, 0) + count
         shares = sorted(total.items(), key=lambda item: (item[0] in PROCEDURAL, -item[1]))
         every = sum(total.values())

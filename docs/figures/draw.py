@@ -2,24 +2,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws the figures of docs/concepts.md beside this file; with --check, only compares them.
 
-Every number in them is counted by lanes.py, which runs the wave.
+Every number in them is counted by lanes.py, which runs the batch.
 """
 import argparse
 import pathlib
 import sys
 
 import lanes
-from lanes import SHADERS, WARP, WAVE
+from lanes import SHADERS, WARP, BATCH
 from picture import CELL, LEFT, Picture, column
 
-EVERYONE = range(len(WAVE))
+EVERYONE = range(len(BATCH))
 
 
-def wave():
-    p = Picture("A wave of sixteen requests, four shaders, four lanes per warp")
-    p.head("A wave: requests, each with a shader")
+def batch():
+    p = Picture("A batch of sixteen requests, four shaders, four lanes per warp")
+    p.head("A batch: requests, each with a shader")
     p.requests(EVERYONE)
-    p.warps([f"warp {w}" for w in range(len(WAVE) // WARP)])
+    p.warps([f"warp {w}" for w in range(len(BATCH) // WARP)])
     p.head("What a shader takes")
     p.costs()
     return p
@@ -63,7 +63,7 @@ def explicit():
     for shader, launch in zip(SHADERS, run.launches):
         p.head(f"Launch {shader}: every request is looked at")
         for position in EVERYONE:
-            p.cell(position, WAVE[position], None if WAVE[position] == shader else "off")
+            p.cell(position, BATCH[position], None if BATCH[position] == shader else "off")
         p.y += CELL
         p.space(4)
         p.time(launch)
@@ -75,7 +75,7 @@ def compact():
     p = Picture("Stream compaction, once per shader: select, scan, scatter")
     order = lanes.compacted()
     flags, places = lanes.compaction_of("A")
-    p.head("The wave")
+    p.head("The batch")
     p.requests(EVERYONE)
     p.head("Select A: a flag for each request")
     p.numbers(flags)
@@ -83,11 +83,11 @@ def compact():
     p.numbers(places)
     p.head("Scatter: the scan says the place")
     size = sum(flags)
-    p.requests(order[:size] + [None] * (len(WAVE) - size))
+    p.requests(order[:size] + [None] * (len(BATCH) - size))
     for number, shader in enumerate(SHADERS[1:], 1):
         size += sum(lanes.compaction_of(shader)[0])
         p.head(f"The same for {shader}")
-        p.requests(order[:size] + [None] * (len(WAVE) - size), indices=shader == SHADERS[-1])
+        p.requests(order[:size] + [None] * (len(BATCH) - size), indices=shader == SHADERS[-1])
     return p
 
 
@@ -99,7 +99,7 @@ def sort():
         p.head(head)
         p.requests(order)
         if number + 1 < len(heads):
-            p.numbers([SHADERS.index(WAVE[r]) >> number & 1 for r in order])
+            p.numbers([SHADERS.index(BATCH[r]) >> number & 1 for r in order])
     return p
 
 
@@ -117,7 +117,7 @@ def bucket():
     p = Picture("Bucketing: count, scan, place")
     counts, places = lanes.bucket_tables()
     names = [f"tile {t}" for t in range(len(counts))]
-    p.head("The wave, cut into tiles")
+    p.head("The batch, cut into tiles")
     p.requests(EVERYONE)
     p.warps(names, lanes.TILE)
     p.head("Every tile counts its shaders")
@@ -130,9 +130,9 @@ def bucket():
 
 
 def dispatch():
-    p = Picture("A grouped wave, dispatched by a switch and by a launch per shader")
+    p = Picture("A grouped batch, dispatched by a switch and by a launch per shader")
     runs = lanes.schedules()
-    p.head("The grouped wave")
+    p.head("The grouped batch")
     p.requests(lanes.bucketed())
     run = runs["compact, sort or bucket, implicit"]
     p.head("Implicit: one launch, warps cross borders")
@@ -142,7 +142,7 @@ def dispatch():
     p.head("Explicit: a launch for each shader")
     y, start = p.y, 0
     for shader, launch in zip(SHADERS, run.launches):
-        if start + len(launch) * WARP > len(WAVE):
+        if start + len(launch) * WARP > len(BATCH):
             y, start = bottom + 4, 0
         p.y = y
         p.text(column(start), y + 12, f"launch {shader}", "say small")
@@ -158,7 +158,7 @@ def dispatch():
 def local():
     p = Picture("Sorting inside tiles, then a switch or rows of one shader")
     names = [f"tile {t}" for t in range(len(lanes.tiles()))]
-    p.head("The wave, cut into tiles")
+    p.head("The batch, cut into tiles")
     p.requests(EVERYONE)
     p.head("Each tile sorted by itself, near its lanes")
     p.requests(sum(lanes.sorted_tiles(), []))
@@ -181,7 +181,7 @@ def window():
     p = Picture("A window: tiles add up each other's counts, and the switch runs over the result")
     counts = lanes.bucket_tables()[0]
     names = [f"tile {t}" for t in range(len(counts))]
-    p.head("One window of a wave, cut into tiles")
+    p.head("One window of a batch, cut into tiles")
     p.requests(EVERYONE)
     p.warps(names, lanes.TILE)
     p.head("1: every tile counts its shaders")
@@ -197,7 +197,7 @@ def window():
 
 def efficiency():
     p = Picture("The share of lane-steps that are work, for every schedule")
-    p.head("Lane-steps that are work, of this one wave")
+    p.head("Lane-steps that are work, of this one batch")
     for name, run in lanes.schedules().items():
         p.bar(name, run)
     return p
@@ -209,7 +209,7 @@ def main():
     check = parser.parse_args().check
     lanes.check()
     here = pathlib.Path(__file__).resolve().parent
-    figures = {f"{f.__name__}.svg": f().svg() for f in (wave, divergence, implicit, explicit, compact, sort, bucket,
+    figures = {f"{f.__name__}.svg": f().svg() for f in (batch, divergence, implicit, explicit, compact, sort, bucket,
                                                         dispatch, local, window, efficiency)}
     stale = [path.name for path in here.glob("*.svg") if path.name not in figures]
     for name, text in figures.items():

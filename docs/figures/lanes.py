@@ -7,7 +7,7 @@ from that. `check()` compares with the paper's formula and sees that every reque
 import dataclasses
 import itertools
 
-WAVE = "ACBADABCBDACABDB"  # the shader that each request names
+BATCH = "ACBADABCBDACABDB"  # the shader that each request names
 COSTS = {"A": 1, "B": 2, "C": 2, "D": 3}  # the steps that a shader takes
 SHADERS = list(COSTS)
 WARP = 4
@@ -21,11 +21,11 @@ class Warp:
 
     def steps(self):
         """For every step the shader that runs: shaders take turns, each for as long as it takes."""
-        here = {WAVE[r] for r in self.requests if r is not None}
+        here = {BATCH[r] for r in self.requests if r is not None}
         return [shader for shader in SHADERS if shader in here for _ in range(COSTS[shader])]
 
     def at_work(self, lane, shader):
-        return self.requests[lane] is not None and WAVE[self.requests[lane]] == shader
+        return self.requests[lane] is not None and BATCH[self.requests[lane]] == shader
 
 
 @dataclasses.dataclass
@@ -62,13 +62,13 @@ def switch(order):
 
 def launches(order):
     """One launch per shader over its segment."""
-    return Run([warps_of([r for r in order if WAVE[r] == shader]) for shader in SHADERS])
+    return Run([warps_of([r for r in order if BATCH[r] == shader]) for shader in SHADERS])
 
 
 def masked():
     """One launch per shader over all requests; lanes whose request names another leave at once."""
-    everyone = range(len(WAVE))
-    return Run([warps_of([r if WAVE[r] == shader else None for r in everyone]) for shader in SHADERS])
+    everyone = range(len(BATCH))
+    return Run([warps_of([r if BATCH[r] == shader else None for r in everyone]) for shader in SHADERS])
 
 
 def exclusive_scan(values):
@@ -77,7 +77,7 @@ def exclusive_scan(values):
 
 def compaction_of(shader):
     """Flags and places: select and scan."""
-    flags = [int(name == shader) for name in WAVE]
+    flags = [int(name == shader) for name in BATCH]
     return flags, exclusive_scan(flags)
 
 
@@ -95,40 +95,40 @@ def compacted():
 
 def radix_passes():
     """The order after each pass over one bit of the ids, the lowest first."""
-    order = list(range(len(WAVE)))
+    order = list(range(len(BATCH)))
     passes = [order]
     for bit in range((len(SHADERS) - 1).bit_length()):
-        ones = [r for r in order if SHADERS.index(WAVE[r]) >> bit & 1]
+        ones = [r for r in order if SHADERS.index(BATCH[r]) >> bit & 1]
         order = [r for r in order if r not in ones] + ones
         passes.append(order)
     return passes
 
 
 def tiles():
-    return [range(first, first + TILE) for first in range(0, len(WAVE), TILE)]
+    return [range(first, first + TILE) for first in range(0, len(BATCH), TILE)]
 
 
 def bucket_tables():
     """What each tile counts of each shader, and the place of its first one."""
-    counts = [[sum(WAVE[r] == shader for r in tile) for shader in SHADERS] for tile in tiles()]
+    counts = [[sum(BATCH[r] == shader for r in tile) for shader in SHADERS] for tile in tiles()]
     by_shader = exclusive_scan([row[k] for k in range(len(SHADERS)) for row in counts])
     places = [[by_shader[k * len(counts) + t] for k in range(len(SHADERS))] for t in range(len(counts))]
     return counts, places
 
 
 def bucketed():
-    order = [None] * len(WAVE)
+    order = [None] * len(BATCH)
     for tile, places in zip(tiles(), bucket_tables()[1]):
         free = dict(zip(SHADERS, places))
         for request in tile:
-            order[free[WAVE[request]]] = request
-            free[WAVE[request]] += 1
+            order[free[BATCH[request]]] = request
+            free[BATCH[request]] += 1
     return order
 
 
 def bitonic(tile):
     """Batcher's network over keys of shader and position, as in grouping/tile.hpp."""
-    keys = [(SHADERS.index(WAVE[r]), r) for r in tile]
+    keys = [(SHADERS.index(BATCH[r]), r) for r in tile]
     run = 2
     while run <= len(keys):
         distance = run // 2
@@ -156,11 +156,11 @@ def local_rows():
 
 
 def schedules():
-    """A run of the wave by every schedule. Compaction, sort and buckets make one order, and so does the window,
-    which holds the whole of so small a wave."""
+    """A run of the batch by every schedule. Compaction, sort and buckets make one order, and so does the window,
+    which holds the whole of so small a batch."""
     grouped = bucketed()
     return {
-        "implicit": switch(range(len(WAVE))),
+        "implicit": switch(range(len(BATCH))),
         "explicit": masked(),
         "local-bitonic": local_switch(),
         "local": local_rows(),
@@ -173,7 +173,7 @@ def schedules():
 def check():
     """Stops where a schedule leaves a request out, runs one twice, or counts otherwise than the formula of
     Hoberock et al., HPG 2009, section 5."""
-    grouped = [r for shader in SHADERS for r in range(len(WAVE)) if WAVE[r] == shader]
+    grouped = [r for shader in SHADERS for r in range(len(BATCH)) if BATCH[r] == shader]
     for order in (compacted(), radix_passes()[-1], bucketed()):
         assert order == grouped, "a grouping is the stable one"
     for tile, order in zip(tiles(), sorted_tiles()):
@@ -181,8 +181,8 @@ def check():
     for name, run in schedules().items():
         ran = [warp.requests[lane] for warp in run.warps() for shader in warp.steps()
                for lane in range(WARP) if warp.at_work(lane, shader)]
-        assert sorted(ran) == sorted(r for r in grouped for _ in range(COSTS[WAVE[r]])), name
-        useful = sum(COSTS[name] for name in WAVE)
-        named = [{WAVE[r] for r in warp.requests if r is not None} for warp in run.warps()]
+        assert sorted(ran) == sorted(r for r in grouped for _ in range(COSTS[BATCH[r]])), name
+        useful = sum(COSTS[name] for name in BATCH)
+        named = [{BATCH[r] for r in warp.requests if r is not None} for warp in run.warps()]
         held = WARP * sum(COSTS[shader] for names in named for shader in names)
         assert (run.active(), run.held()) == (useful, held), name

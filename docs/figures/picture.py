@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Rows of requests and lanes as SVG: what the figures are made of. Colours are those of Okabe and Ito, and
 every coloured cell has a letter as well."""
-from lanes import COSTS, SHADERS, WARP, WAVE
+from lanes import COSTS, SHADERS, WARP, BATCH
 
 CELL, GAP, LEFT, WIDTH = 20, 6, 21, 380
 STYLE = """<style>
@@ -56,7 +56,7 @@ class Picture:
             if request is None:
                 self.cell(position, "", "none")
             else:
-                self.cell(position, WAVE[request])
+                self.cell(position, BATCH[request])
         self.y += CELL
         if indices:
             self.numbers(["" if r is None else r for r in order], start)

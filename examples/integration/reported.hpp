@@ -7,8 +7,8 @@
 #include <deferred_shade/statistics.hpp>
 #include <vector>
 
-/// A schedule that does what `Schedule` does, and says how coherent the wave was and how long it
-/// took to shade. For policies that return when the wave is shaded, those for CPUs.
+/// A schedule that does what `Schedule` does, and says how coherent the batch was and how long it
+/// took to shade. For policies that return when the batch is shaded, those for CPUs.
 template <class Schedule>
 struct reported {
   template <class Policy, class Ids, class... Shaders, class Workspace>

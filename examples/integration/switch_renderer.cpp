@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A small wavefront path tracer: RENDERER PICTURE.pfm [SEED [furnace]]. The wave holds a path for
+// A small wavefront path tracer: RENDERER PICTURE.pfm [SEED [furnace]]. The batch holds a path for
 // each pixel, in arrays; a step intersects all paths that go on, then shades each by the material
 // that it hit.
 #include <algorithm>

@@ -25,7 +25,7 @@ namespace path_tracer {
 //   static void leave_out(scene&)                      takes away what is not in its parts
 //   using path_state                                   what a path remembers, zero at first
 //   static void camera_ray(camera, random, ray&)       changes a ray from the camera
-//   static void at_glass(wave, i, point&)              changes a hit on glass
+//   static void at_glass(batch, i, point&)              changes a hit on glass
 // Arguments are templates, because an effect comes before the material that it is a part of. A
 // part as it is constructed means that there is no such effect.
 

@@ -15,23 +15,23 @@
 #include <vector>
 
 #include "backends.hpp"
+#include "batch_storage.hpp"
 #include "host_backend.hpp"
 #include "scattering.hpp"
 #include "shaders.hpp"
 #include "span_recorder.hpp"
 #include "stages.hpp"
 #include "statistics.hpp"
-#include "wave_storage.hpp"
 
 namespace path_tracer {
 
-/// A wave holds one sample of each pixel where that makes no more than 2^20 paths, else so many.
-inline constexpr std::uint64_t small_wave = std::uint64_t{1} << 18;
-inline constexpr std::uint64_t large_wave = std::uint64_t{1} << 20;
+/// A batch holds one sample of each pixel where that makes no more than 2^20 paths, else so many.
+inline constexpr std::uint64_t small_batch = std::uint64_t{1} << 18;
+inline constexpr std::uint64_t large_batch = std::uint64_t{1} << 20;
 
 /// The shader of an effect, where a set has it.
 template <class Effect, class Set>
-auto make_shader(wave_view<Set> const& w, scene_view const& s) {
+auto make_shader(batch_view<Set> const& w, scene_view const& s) {
   if constexpr (Set::template has<Effect>) {
     return surface_shader<Effect, Set>{w, s};
   } else {
@@ -41,17 +41,17 @@ auto make_shader(wave_view<Set> const& w, scene_view const& s) {
 
 /// The table that `enum shader` numbers, of the shaders that a set of effects has.
 template <class Set, int... Numbers>
-auto make_shaders(wave_view<Set> const& w, scene_view const& s,
+auto make_shaders(batch_view<Set> const& w, scene_view const& s,
                   std::integer_sequence<int, Numbers...>) {
   return deferred_shade::shader_table{make_shader<effect_at<Numbers>>(w, s)...,
                                       miss_shader<Set>{w, s}};
 }
 template <class Set>
-auto make_shaders(wave_view<Set> const& w, scene_view const& s) {
+auto make_shaders(batch_view<Set> const& w, scene_view const& s) {
   return make_shaders(w, s, std::make_integer_sequence<int, shader_count - 1>());
 }
 
-/// A wavefront path tracer on one backend: every stage runs over all paths of a wave, and the one
+/// A wavefront path tracer on one backend: every stage runs over all paths of a batch, and the one
 /// that diverges, shading, goes through the library.
 template <class Backend, class Set>
 class integrator {
@@ -89,30 +89,30 @@ class integrator {
     auto const start = clock::now();
     std::uint64_t const pixels = std::uint64_t{settings_.width} * settings_.height;
     std::uint64_t const items = pixels * settings_.samples;
-    std::uint64_t const wave_size = glm::min(items, glm::clamp(pixels, small_wave, large_wave));
-    wave_storage<Backend, Set> storage(backend_, wave_size);
-    wave_view<Set> wave = storage.view();
-    wave.seed = settings_.seed;
-    wave.pixels = static_cast<std::uint32_t>(pixels);
-    wave.max_depth = settings_.max_depth;
-    wave.roulette_from = settings_.accuracy.roulette_from;
+    std::uint64_t const batch_size = glm::min(items, glm::clamp(pixels, small_batch, large_batch));
+    batch_storage<Backend, Set> storage(backend_, batch_size);
+    batch_view<Set> batch = storage.view();
+    batch.seed = settings_.seed;
+    batch.pixels = static_cast<std::uint32_t>(pixels);
+    batch.max_depth = settings_.max_depth;
+    batch.roulette_from = settings_.accuracy.roulette_from;
     auto sums = backend_.template make_array<Sum>(pixels);
-    scratch_.reserve(wave_size, shader_count);
+    scratch_.reserve(batch_size, shader_count);
     if (settings_.statistics)
-      aside([&] { warm_up(schedule, wave, static_cast<std::uint32_t>(wave_size)); });
-    for (wave.first = 0; wave.first < items; wave.first += wave_size) {
-      auto const paths = static_cast<std::uint32_t>(glm::min(wave_size, items - wave.first));
+      aside([&] { warm_up(schedule, batch, static_cast<std::uint32_t>(batch_size)); });
+    for (batch.first = 0; batch.first < items; batch.first += batch_size) {
+      auto const paths = static_cast<std::uint32_t>(glm::min(batch_size, items - batch.first));
       auto const touched = static_cast<std::uint32_t>(glm::min(pixels, std::uint64_t{paths}));
-      spans_.begin_wave();
+      spans_.begin_batch();
       {
-        auto const in_wave =
-            spans_.open("wave " + std::to_string(wave.first / wave_size + 1), paths);
-        trace_wave(schedule, wave, paths);
-        for_all("accumulate", touched, accumulate_samples<Sum>{wave, paths, data_of(sums)});
-        result_.discarded_samples += sum_over("count discarded", paths, count_discarded{wave});
+        auto const in_batch =
+            spans_.open("batch " + std::to_string(batch.first / batch_size + 1), paths);
+        trace_batch(schedule, batch, paths);
+        for_all("accumulate", touched, accumulate_samples<Sum>{batch, paths, data_of(sums)});
+        result_.discarded_samples += sum_over("count discarded", paths, count_discarded{batch});
       }
-      spans_.end_wave();
-      if (progress) progress(static_cast<double>(wave.first + paths) / static_cast<double>(items));
+      spans_.end_batch();
+      if (progress) progress(static_cast<double>(batch.first + paths) / static_cast<double>(items));
     }
     result_.pixels.reserve(pixels);
     for (Sum const& sum : backend_.to_host(std::move(sums)))
@@ -161,43 +161,43 @@ class integrator {
   /// Runs the schedule over paths that are all finished, for no time to count what a first launch
   /// takes: the start of threads, or the way of the kernels to the device.
   template <class Schedule>
-  void warm_up(Schedule const& schedule, wave_view<Set> const& wave, std::uint32_t paths) {
-    thrust::fill_n(exec_, wave.id, paths, finished);
-    shade_and_time(schedule, wave, paths);
+  void warm_up(Schedule const& schedule, batch_view<Set> const& batch, std::uint32_t paths) {
+    thrust::fill_n(exec_, batch.id, paths, finished);
+    shade_and_time(schedule, batch, paths);
   }
 
-  /// Shades a wave; with statistics, groups it before by shaders that do nothing.
+  /// Shades a batch; with statistics, groups it before by shaders that do nothing.
   template <class Schedule>
-  void shade_and_time(Schedule const& schedule, wave_view<Set> const& wave, std::uint32_t paths) {
+  void shade_and_time(Schedule const& schedule, batch_view<Set> const& batch, std::uint32_t paths) {
     auto const& expected = settings_.expected;
     if (settings_.statistics)
-      timed_shade("shade nothing", schedule, paths, wave.id,
+      timed_shade("shade nothing", schedule, paths, batch.id,
                   uniform_table(empty_shader{}).expecting(expected), group_time_);
-    timed_shade("shade", schedule, paths, wave.id, make_shaders(wave, scene_).expecting(expected),
+    timed_shade("shade", schedule, paths, batch.id, make_shaders(batch, scene_).expecting(expected),
                 total_time_);
   }
 
   template <class Schedule>
-  void trace_wave(Schedule const& schedule, wave_view<Set> wave, std::uint32_t paths) {
+  void trace_batch(Schedule const& schedule, batch_view<Set> batch, std::uint32_t paths) {
     for_all("generate", paths,
-            generate_paths<Set>{wave, scene_.view, settings_.width, settings_.height});
+            generate_paths<Set>{batch, scene_.view, settings_.width, settings_.height});
     ray_count rays{paths, 0};
-    for (wave.bounce = 0; rays.extended > 0 && wave.bounce != wave.max_depth; ++wave.bounce) {
+    for (batch.bounce = 0; rays.extended > 0 && batch.bounce != batch.max_depth; ++batch.bounce) {
       auto const in_bounce =
-          spans_.open("bounce " + std::to_string(wave.bounce + 1), rays.extended);
-      for_all("intersect", paths, find_hits<Set>{wave, scene_});
-      if (result_.bounces.size() == wave.bounce) result_.bounces.emplace_back();
-      bounce& b = result_.bounces[wave.bounce];
+          spans_.open("bounce " + std::to_string(batch.bounce + 1), rays.extended);
+      for_all("intersect", paths, find_hits<Set>{batch, scene_});
+      if (result_.bounces.size() == batch.bounce) result_.bounces.emplace_back();
+      bounce& b = result_.bounces[batch.bounce];
       b.requests += rays.extended;
-      shade_and_time(schedule, wave, paths);
-      for_all("shadow", paths, trace_shadows<Set>{wave, scene_});
+      shade_and_time(schedule, batch, paths);
+      for_all("shadow", paths, trace_shadows<Set>{batch, scene_});
       result_.rays += rays.extended;
-      rays = ray_count::unpacked(sum_over("count rays", paths, count_rays{wave}));
+      rays = ray_count::unpacked(sum_over("count rays", paths, count_rays{batch}));
       result_.rays += rays.shadow;
       b.total_ms += total_time_.milliseconds();
       if (settings_.statistics) b.group_ms += group_time_.milliseconds();
-      if (settings_.statistics && wave.first == 0)
-        aside([&] { measure_efficiency(schedule, backend_.to_host(wave.id, paths), wave, b); });
+      if (settings_.statistics && batch.first == 0)
+        aside([&] { measure_efficiency(schedule, backend_.to_host(batch.id, paths), batch, b); });
     }
   }
 

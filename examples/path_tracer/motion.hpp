@@ -82,9 +82,9 @@ struct moving_triangles {
 
 /// The moment at which a path sees the scene, in [0, 1) of the time that the shutter is open.
 template <class Set>
-PT_HD real time_of(basic_wave const& wave, std::uint32_t i) {
+PT_HD real time_of(basic_batch const& batch, std::uint32_t i) {
   if constexpr (Set::template has<effects::motion_blur>)
-    return wave.random(i).pair(path_draw::time).x;
+    return batch.random(i).pair(path_draw::time).x;
   return 0;
 }
 

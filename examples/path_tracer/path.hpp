@@ -19,10 +19,10 @@ using stored_direction = vec3;
 using stored_color = vec3;
 #endif
 
-/// The paths of one wave, an array per field; request i of the library is path i. A wave covers the
-/// items first, first + 1, ... of the image, of which number k is sample k / pixels of the pixel
-/// k % pixels: neighbours in a wave are neighbours in the picture.
-struct basic_wave {
+/// The paths of one batch, an array per field; request i of the library is path i. A batch covers
+/// the items first, first + 1, ... of the image, of which number k is sample k / pixels of the
+/// pixel k % pixels: neighbours in a batch are neighbours in the picture.
+struct basic_batch {
   vec3* origin;                 ///< the ray to trace next
   stored_direction* direction;  ///< a unit vector
   stored_color* throughput;     ///< 0: the path is finished
@@ -68,9 +68,9 @@ struct path_arrays;
 template <class Set, class... Effects>
 struct path_arrays<Set, effect_list<Effects...>> : path_array<Effects, Set>... {};
 
-/// The wave of a renderer that simulates a set of effects.
+/// The batch of a renderer that simulates a set of effects.
 template <class Set>
-struct wave_view : basic_wave, path_arrays<Set, all_effects> {
+struct batch_view : basic_batch, path_arrays<Set, all_effects> {
   template <class Effect>
   PT_HD auto& state(std::uint32_t i) const {
     return path_array<Effect, Set>::states[i];

@@ -29,19 +29,19 @@ struct render_settings {
   /// The shaders that are launched, in schedules that launch one after another.
   std::bitset<shader_count> expected = std::bitset<shader_count>().set();
   bool statistics = false;     ///< fill all of a bounce
-  std::size_t most_spans = 0;  ///< a timeline ends with the wave that reaches so many; 0: none
+  std::size_t most_spans = 0;  ///< a timeline ends with the batch that reaches so many; 0: none
 };
 
-/// What one bounce took, summed over all waves of the image.
+/// What one bounce took, summed over all batches of the image.
 struct bounce {
   std::uint64_t requests = 0;  ///< requests that ran a shader
   double group_ms = 0;         ///< the schedule over shaders that do nothing
   double shade_ms = 0;         ///< total_ms - group_ms
   double total_ms = 0;         ///< the schedule over the real shaders
-  double efficiency = 0;       ///< heterogeneous efficiency of the first wave in execution order
+  double efficiency = 0;       ///< heterogeneous efficiency of the first batch in execution order
   std::vector<float>
-      pixel_efficiency;  ///< per pixel of the first wave: its group's; NaN: no request
-  std::vector<std::uint64_t> shader_requests;  ///< of each shader, in the first wave
+      pixel_efficiency;  ///< per pixel of the first batch: its group's; NaN: no request
+  std::vector<std::uint64_t> shader_requests;  ///< of each shader, in the first batch
 };
 
 struct render_result {

@@ -88,7 +88,7 @@ std::string json_report(options const& o, std::size_t triangle_count,
                          {"shade_ms", b.shade_ms},
                          {"total_ms", b.total_ms},
                          {"efficiency", b.efficiency},
-                         {"first_wave_by_shader", requests_by_shader(b)}});
+                         {"first_batch_by_shader", requests_by_shader(b)}});
     schedules.push_back({{"schedule", r.schedule},
                          {"seconds", r.result.seconds},
                          {"rays", r.result.rays},

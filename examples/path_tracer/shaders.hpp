@@ -66,29 +66,29 @@ struct shading_point {
 };
 
 /// The light from a hit emitter, weighed against what a light sample at the last surface found.
-PT_HD inline void add_emission(basic_wave const& wave, scene_view const& scene, std::uint32_t i,
+PT_HD inline void add_emission(basic_batch const& batch, scene_view const& scene, std::uint32_t i,
                                surface const& s, real area_ratio) {
   material const& m = scene.materials[s.material];
   if (!s.front && !m.two_sided) return;
   real weight = 1;
-  if (wave.pdf[i] > 0) {
-    vec3 const d = s.position - wave.origin[i];
-    real const cos_light = -glm::dot(vec3(wave.direction[i]), s.geometric);
+  if (batch.pdf[i] > 0) {
+    vec3 const d = s.position - batch.origin[i];
+    real const cos_light = -glm::dot(vec3(batch.direction[i]), s.geometric);
     real const pdf = light_pdf(scene.lights, m, glm::dot(d, d), cos_light) * area_ratio;
-    weight = weight_of_bsdf(scene.lights.how, wave.pdf[i], pdf);
+    weight = weight_of_bsdf(scene.lights.how, batch.pdf[i], pdf);
   }
-  wave.radiance[i] += wave.throughput[i] * m.emission * weight;
+  batch.radiance[i] += batch.throughput[i] * m.emission * weight;
 }
 
 /// The random numbers of the light sample of a bounce.
 template <class Set>
-PT_HD light_draws draws_of_light(basic_wave const& wave, std::uint32_t i) {
-  random_stream const random = wave.random(i);
-  light_draws u{random.pair(pair_of(draw::light, wave.bounce)),
-                random.pair(pair_of(draw::light_point, wave.bounce)), vec2{0},
-                time_of<Set>(wave, i)};
+PT_HD light_draws draws_of_light(basic_batch const& batch, std::uint32_t i) {
+  random_stream const random = batch.random(i);
+  light_draws u{random.pair(pair_of(draw::light, batch.bounce)),
+                random.pair(pair_of(draw::light_point, batch.bounce)), vec2{0},
+                time_of<Set>(batch, i)};
   if constexpr (Set::template has<effects::environment>)
-    u.texel = random.pair(path_draw::sky_texel + wave.bounce);
+    u.texel = random.pair(path_draw::sky_texel + batch.bounce);
   return u;
 }
 
@@ -104,65 +104,65 @@ PT_HD vec3 arriving(scene_view const& scene, light_sample const& l) {
   }
 }
 
-/// One light sample; its shadow ray and contribution go to the wave.
+/// One light sample; its shadow ray and contribution go to the batch.
 template <class Set, class Bsdf>
-PT_HD void sample_lights(basic_wave const& wave, scene_view const& scene, std::uint32_t i,
+PT_HD void sample_lights(basic_batch const& batch, scene_view const& scene, std::uint32_t i,
                          surface const& s, Bsdf const& bsdf) {
   if (scene.lights.count == 0) return;
-  light_sample const l = sample_light<Set>(scene.lights, s.position, draws_of_light<Set>(wave, i));
+  light_sample const l = sample_light<Set>(scene.lights, s.position, draws_of_light<Set>(batch, i));
   if (!(l.pdf > 0) || max_component(l.radiance) <= 0) return;
   vec3 const wi = s.to_local(l.wi);
   if (!s.consistent(wi, l.wi)) return;
   bsdf_value const v = bsdf.value(s.wo, wi);
   real const weight = l.delta ? real(1) : weight_of_light(scene.lights.how, l.pdf, v.pdf);
-  vec3 const light = wave.throughput[i] * v.f_cos * arriving<Set>(scene, l) * (weight / l.pdf);
+  vec3 const light = batch.throughput[i] * v.f_cos * arriving<Set>(scene, l) * (weight / l.pdf);
   if (light == vec3{0}) return;
   vec3 const origin = s.start_towards(l.wi);
   vec3 const end = s.position + l.wi * l.distance + l.clearance;
-  wave.shadow_origin[i] = origin;
-  wave.shadow_vector[i] = end - origin;
-  wave.shadow_light[i] = light;
+  batch.shadow_origin[i] = origin;
+  batch.shadow_vector[i] = end - origin;
+  batch.shadow_light[i] = light;
 }
 
 /// Sets the next ray of a path, or ends it.
 template <class Bsdf>
-PT_HD void extend_path(basic_wave const& wave, std::uint32_t i, surface const& s,
+PT_HD void extend_path(basic_batch const& batch, std::uint32_t i, surface const& s,
                        Bsdf const& bsdf) {
-  random_stream const random = wave.random(i);
-  vec2 const u = random.pair(pair_of(draw::direction, wave.bounce));
-  vec2 const v = random.pair(pair_of(draw::lobe_and_roulette, wave.bounce));
+  random_stream const random = batch.random(i);
+  vec2 const u = random.pair(pair_of(draw::direction, batch.bounce));
+  vec2 const v = random.pair(pair_of(draw::lobe_and_roulette, batch.bounce));
   bsdf_sample const b = bsdf.sample(s.wo, {u.x, u.y, v.x});
-  vec3 throughput = wave.throughput[i] * b.weight;
+  vec3 throughput = batch.throughput[i] * b.weight;
   vec3 const wi = s.to_world(b.wi);
-  wave.throughput[i] = vec3{0};
+  batch.throughput[i] = vec3{0};
   if (!s.consistent(b.wi, wi)) return;
-  if (wave.bounce + 1 >= wave.roulette_from) {
+  if (batch.bounce + 1 >= batch.roulette_from) {
     real const survival = glm::min(real(0.95), max_component(throughput));
     if (v.y >= survival) return;
     throughput /= survival;
   }
-  wave.throughput[i] = throughput;
-  wave.origin[i] = s.start_towards(wi);
-  wave.direction[i] = glm::normalize(wi);
-  wave.pdf[i] = b.delta ? real(0) : b.pdf;
+  batch.throughput[i] = throughput;
+  batch.origin[i] = s.start_towards(wi);
+  batch.direction[i] = glm::normalize(wi);
+  batch.pdf[i] = b.delta ? real(0) : b.pdf;
 }
 
 /// The shader of an effect: emission, one light sample, one BSDF sample.
 template <class Effect, class Set>
 struct surface_shader {
-  wave_view<Set> wave;
+  batch_view<Set> batch;
   scene_view scene;
 
   PT_HD void operator()(deferred_shade::request_index i) const {
-    loaded_triangle<Set> t =
-        load_triangle<Set>(scene.triangles, scene.motion, wave.primitive[i], time_of<Set>(wave, i));
-    surface const s = load_surface<Set>(scene, t, wave.barycentric[i], wave.direction[i]);
+    loaded_triangle<Set> t = load_triangle<Set>(scene.triangles, scene.motion, batch.primitive[i],
+                                                time_of<Set>(batch, i));
+    surface const s = load_surface<Set>(scene, t, batch.barycentric[i], batch.direction[i]);
     if constexpr (std::is_same_v<Effect, effects::emitters>) {
-      real const ratio = area_ratio<Set>(scene.triangles, scene.motion, wave.primitive[i], t);
-      add_emission(wave, scene, i, s, ratio);
+      real const ratio = area_ratio<Set>(scene.triangles, scene.motion, batch.primitive[i], t);
+      add_emission(batch, scene, i, s, ratio);
     }
-    if (wave.bounce + 1 >= wave.max_depth) {
-      wave.throughput[i] = vec3{0};
+    if (batch.bounce + 1 >= batch.max_depth) {
+      batch.throughput[i] = vec3{0};
       return;
     }
     shading_point<Set> point(scene, s, t);
@@ -170,34 +170,34 @@ struct surface_shader {
       for_each_effect(all_effects{}, [&](auto effect) {
         using type = decltype(effect);
         if constexpr (Set::template has<type> && detail::changes_glass<type>)
-          type::at_glass(wave, i, point);
+          type::at_glass(batch, i, point);
       });
     }
     auto const bsdf = Effect::bsdf(point);
-    if constexpr (has_lights<Set>) sample_lights<Set>(wave, scene, i, s, bsdf);
-    extend_path(wave, i, s, bsdf);
+    if constexpr (has_lights<Set>) sample_lights<Set>(batch, scene, i, s, bsdf);
+    extend_path(batch, i, s, bsdf);
   }
 };
 
 /// The shader of a ray that left the scene.
 template <class Set>
 struct miss_shader {
-  basic_wave wave;
+  basic_batch batch;
   scene_view scene;
 
   PT_HD void operator()(deferred_shade::request_index i) const {
     vec3 radiance = scene.background;
     if constexpr (Set::template has<effects::environment>) {
       if (scene.lights.sky.width > 0) {
-        vec2 const uv = scene.lights.sky.coordinates(wave.direction[i]);
-        real const pdf = wave.pdf[i];
+        vec2 const uv = scene.lights.sky.coordinates(batch.direction[i]);
+        real const pdf = batch.pdf[i];
         real const weight =
             pdf > 0 ? weight_of_bsdf(scene.lights.how, pdf, sky_pdf(scene.lights, uv)) : real(1);
         radiance += weight * scene.lights.sky.radiance(uv);
       }
     }
-    wave.radiance[i] += wave.throughput[i] * radiance;
-    wave.throughput[i] = vec3{0};
+    batch.radiance[i] += batch.throughput[i] * radiance;
+    batch.throughput[i] = vec3{0};
   }
 };
 

@@ -16,12 +16,12 @@
 namespace path_tracer {
 
 /// Writes down what a rendering does and when. On the host that is by the steady clock: on a CPU
-/// the work itself, with a GPU its submission. Inside of waves, the work on a device is written
+/// the work itself, with a GPU its submission. Inside of batches, the work on a device is written
 /// down as well, by the clock of its stream.
 template <class Backend>
 class span_recorder {
  public:
-  /// Records nothing where `most` is 0, else ends with the wave that reaches so many spans.
+  /// Records nothing where `most` is 0, else ends with the batch that reaches so many spans.
   span_recorder(Backend const& backend, std::size_t most) : most_(most), recording_(most > 0) {
     if (recording_) device_.emplace(backend);
     start_ = clock::now();
@@ -45,19 +45,19 @@ class span_recorder {
     std::size_t host_, piece_;
   };
 
-  /// A wave begins, and ends: no span of it may be open then.
-  void begin_wave() {
+  /// A batch begins, and ends: no span of it may be open then.
+  void begin_batch() {
     recording_ = result_.spans.size() < most_;
-    in_wave_ = true;
-    if (most_ > 0) ++result_.waves;
-    if (recording_) ++result_.waves_in_it;
+    in_batch_ = true;
+    if (most_ > 0) ++result_.batches;
+    if (recording_) ++result_.batches_in_it;
   }
-  void end_wave() {
+  void end_batch() {
     if constexpr (has_device) {
       if (recording_) read_device();
     }
     recording_ = most_ > 0;
-    in_wave_ = false;
+    in_batch_ = false;
   }
 
   [[nodiscard]] scope open(std::string_view name, std::optional<std::uint64_t> requests = {}) {
@@ -88,7 +88,7 @@ class span_recorder {
     std::size_t piece = no_piece;
     std::size_t const host = result_.spans.size();
     if constexpr (has_device) {
-      if (in_wave_) {
+      if (in_batch_) {
         pieces_.push_back(s);
         pieces_.back().on_device = true;
         piece = device_->begin();
@@ -116,10 +116,10 @@ class span_recorder {
   }
 
   std::size_t most_;
-  bool recording_, in_wave_ = false;
+  bool recording_, in_batch_ = false;
   clock::time_point start_;
   std::optional<device_clock> device_;
-  std::vector<span> pieces_;  // of the wave, for the device
+  std::vector<span> pieces_;  // of the batch, for the device
   timeline result_;
 };
 

@@ -19,16 +19,16 @@ PT_HD inline vec2 half_extent(camera const& view, real aspect) {
   return {y * aspect, y};
 }
 
-/// Starts the paths of a wave: camera rays through random points of their pixels.
+/// Starts the paths of a batch: camera rays through random points of their pixels.
 template <class Set>
 struct generate_paths {
-  wave_view<Set> wave;
+  batch_view<Set> batch;
   camera view;
   std::uint32_t width, height;
 
   PT_HD void operator()(request_index i) const {
-    std::uint32_t const pixel = wave.pixel(i);
-    vec2 const jitter = wave.random(i).pair(0);
+    std::uint32_t const pixel = batch.pixel(i);
+    vec2 const jitter = batch.random(i).pair(0);
     auto const w = static_cast<real>(width), h = static_cast<real>(height);
     vec2 const half = half_extent(view, w / h);
     real const x = ((static_cast<real>(pixel % width) + jitter.x) * 2 / w - 1) * half.x;
@@ -40,49 +40,49 @@ struct generate_paths {
     for_each_effect(all_effects{}, [&](auto effect) {
       using type = decltype(effect);
       if constexpr (Set::template has<type>) {
-        if constexpr (detail::changes_camera_rays<type>) type::camera_ray(view, wave.random(i), r);
-        if constexpr (path_array<type, Set>::exists) wave.template state<type>(i) = {};
+        if constexpr (detail::changes_camera_rays<type>) type::camera_ray(view, batch.random(i), r);
+        if constexpr (path_array<type, Set>::exists) batch.template state<type>(i) = {};
       }
     });
-    wave.origin[i] = r.origin;
-    wave.direction[i] = r.direction;
-    wave.throughput[i] = vec3{1};
-    wave.radiance[i] = vec3{0};
-    wave.pdf[i] = 0;
+    batch.origin[i] = r.origin;
+    batch.direction[i] = r.direction;
+    batch.throughput[i] = vec3{1};
+    batch.radiance[i] = vec3{0};
+    batch.pdf[i] = 0;
   }
 };
 
 /// Finds what each ray hits, and with it the shader to run.
 template <class Set>
 struct find_hits {
-  wave_view<Set> wave;
+  batch_view<Set> batch;
   scene_view scene;
 
   PT_HD void operator()(request_index i) const {
-    wave.shadow_light[i] = vec3{0};
-    if (wave.throughput[i] == vec3{0}) {
-      wave.id[i] = finished;
+    batch.shadow_light[i] = vec3{0};
+    if (batch.throughput[i] == vec3{0}) {
+      batch.id[i] = finished;
       return;
     }
-    real const time = time_of<Set>(wave, i);
+    real const time = time_of<Set>(batch, i);
     hit const h = find_hit<Set, false>(scene.bvh, scene.motion,
-                                       {wave.origin[i], wave.direction[i], INFINITY}, time);
-    wave.primitive[i] = h.primitive;
-    wave.barycentric[i] = h.barycentric;
+                                       {batch.origin[i], batch.direction[i], INFINITY}, time);
+    batch.primitive[i] = h.primitive;
+    batch.barycentric[i] = h.barycentric;
     shader kind = h.primitive == no_primitive
                       ? miss
                       : scene.materials[scene.triangles[h.primitive].material].kind;
     if constexpr (Set::template has<effects::medium>) {
       if (scene.medium.extinction != vec3{0} && !inside_glass(i, h, kind, time)) {
-        if (effects::medium::scatters(wave, scene.medium, i, h.t))
+        if (effects::medium::scatters(batch, scene.medium, i, h.t))
           kind = shader_of<effects::medium>;
-        if (wave.throughput[i] == vec3{0}) {
-          wave.id[i] = finished;
+        if (batch.throughput[i] == vec3{0}) {
+          batch.id[i] = finished;
           return;
         }
       }
     }
-    wave.id[i] = static_cast<std::uint8_t>(kind);
+    batch.id[i] = static_cast<std::uint8_t>(kind);
   }
 
  private:
@@ -91,30 +91,30 @@ struct find_hits {
         kind == shader_of<effects::smooth_glass> || kind == shader_of<effects::rough_glass>;
     if (!glass) return false;
     loaded_triangle<Set> t = load_triangle<Set>(scene.triangles, scene.motion, h.primitive, time);
-    return glm::dot(geometric_normal(t), vec3(wave.direction[i])) > 0;
+    return glm::dot(geometric_normal(t), vec3(batch.direction[i])) > 0;
   }
 };
 
 /// Traces the shadow rays and adds the light that arrives.
 template <class Set>
 struct trace_shadows {
-  basic_wave wave;
+  basic_batch batch;
   scene_view scene;
 
   PT_HD void operator()(request_index i) const {
-    if (wave.shadow_light[i] == vec3{0}) return;
-    ray const r{wave.shadow_origin[i], wave.shadow_vector[i], 1};
-    real const time = time_of<Set>(wave, i);
+    if (batch.shadow_light[i] == vec3{0}) return;
+    ray const r{batch.shadow_origin[i], batch.shadow_vector[i], 1};
+    real const time = time_of<Set>(batch, i);
     if (find_hit<Set, true>(scene.bvh, scene.motion, r, time).primitive == no_primitive)
-      wave.radiance[i] += wave.shadow_light[i];
+      batch.radiance[i] += batch.shadow_light[i];
   }
 };
 
-/// How many paths of a wave go on after a bounce, and how many had a shadow ray there.
+/// How many paths of a batch go on after a bounce, and how many had a shadow ray there.
 struct ray_count {
   std::uint32_t extended, shadow;
 
-  /// From the sum of count_rays over the wave.
+  /// From the sum of count_rays over the batch.
   static ray_count unpacked(std::uint64_t sum) {
     return {static_cast<std::uint32_t>(sum), static_cast<std::uint32_t>(sum >> 32)};
   }
@@ -122,11 +122,11 @@ struct ray_count {
 
 /// Both counts of a path in one number, so that one reduction finds them.
 struct count_rays {
-  basic_wave wave;
+  basic_batch batch;
 
   PT_HD std::uint64_t operator()(request_index i) const {
-    std::uint64_t const extended = wave.throughput[i] == vec3{0} ? 0 : 1;
-    std::uint64_t const shadow = wave.shadow_light[i] == vec3{0} ? 0 : 1;
+    std::uint64_t const extended = batch.throughput[i] == vec3{0} ? 0 : 1;
+    std::uint64_t const shadow = batch.shadow_light[i] == vec3{0} ? 0 : 1;
     return shadow << 32 | extended;
   }
 };
@@ -136,28 +136,28 @@ PT_HD inline bool is_finite(vec3 c) {
   return total - total == 0;
 }
 
-/// Adds the samples that a wave has of a pixel to its sum, in the order of the samples, so that the
-/// picture does not depend on the size of a wave. Leaves out samples that are not finite. Runs over
-/// the pixels of the wave, at most one per path.
+/// Adds the samples that a batch has of a pixel to its sum, in the order of the samples, so that
+/// the picture does not depend on the size of a batch. Leaves out samples that are not finite. Runs
+/// over the pixels of the batch, at most one per path.
 template <class Sum>
 struct accumulate_samples {
-  basic_wave wave;
+  basic_batch batch;
   std::uint32_t paths;
   Sum* sums;
 
   PT_HD void operator()(request_index i) const {
-    Sum& sum = sums[wave.pixel(i)];
-    for (std::uint64_t k = i; k < paths; k += wave.pixels)
-      if (is_finite(wave.radiance[k])) sum.add(wave.radiance[k]);
+    Sum& sum = sums[batch.pixel(i)];
+    for (std::uint64_t k = i; k < paths; k += batch.pixels)
+      if (is_finite(batch.radiance[k])) sum.add(batch.radiance[k]);
   }
 };
 
 /// 1 for a sample that accumulate_samples leaves out.
 struct count_discarded {
-  basic_wave wave;
+  basic_batch batch;
 
   PT_HD std::uint64_t operator()(request_index i) const {
-    return is_finite(wave.radiance[i]) ? 0 : 1;
+    return is_finite(batch.radiance[i]) ? 0 : 1;
   }
 };
 

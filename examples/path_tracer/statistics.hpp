@@ -54,8 +54,9 @@ Schedule<deferred_shade::explicit_serialization> in_grouped_order(
   return {};
 }
 
-/// The requests of a wave in the order in which lanes take them: that of one thread of a CPU, which
-/// is also that of a GPU but for the end of a shader's requests, where a GPU starts a fresh warp.
+/// The requests of a batch in the order in which lanes take them: that of one thread of a CPU,
+/// which is also that of a GPU but for the end of a shader's requests, where a GPU starts a fresh
+/// warp.
 template <class Schedule>
 std::vector<deferred_shade::request_index> execution_order(Schedule const& schedule,
                                                            std::uint32_t paths,
@@ -73,16 +74,16 @@ std::vector<deferred_shade::request_index> execution_order(Schedule const& sched
   return order;
 }
 
-/// Fills the efficiencies and the requests by shader of `b` from one wave, whose ids are given in
+/// Fills the efficiencies and the requests by shader of `b` from one batch, whose ids are given in
 /// host memory: groups of 32 lanes, all shaders at one cost. A pixel with several samples in the
-/// wave shows the group of the first.
+/// batch shows the group of the first.
 template <class Schedule>
-void measure_efficiency(Schedule const& schedule, std::vector<std::uint8_t> const& wave_ids,
-                        basic_wave const& wave, bounce& b) {
+void measure_efficiency(Schedule const& schedule, std::vector<std::uint8_t> const& batch_ids,
+                        basic_batch const& batch, bounce& b) {
   auto const order =
-      execution_order(schedule, static_cast<std::uint32_t>(wave_ids.size()), wave_ids.data());
+      execution_order(schedule, static_cast<std::uint32_t>(batch_ids.size()), batch_ids.data());
   std::vector<std::uint8_t> ids(order.size());
-  std::transform(order.begin(), order.end(), ids.begin(), [&](auto i) { return wave_ids[i]; });
+  std::transform(order.begin(), order.end(), ids.begin(), [&](auto i) { return batch_ids[i]; });
   b.shader_requests =
       deferred_shade::count_occurrences(thrust::cpp::par, order.size(), ids.data(), shader_count)
           .requests;
@@ -94,10 +95,10 @@ void measure_efficiency(Schedule const& schedule, std::vector<std::uint8_t> cons
       deferred_shade::heterogeneous_efficiency(thrust::cpp::par, count, ids.data(), model);
   std::vector<float> groups((order.size() + model.width - 1) / model.width);
   deferred_shade::group_efficiency(thrust::cpp::par, count, ids.data(), model, groups.data());
-  b.pixel_efficiency.assign(wave.pixels, std::numeric_limits<float>::quiet_NaN());
+  b.pixel_efficiency.assign(batch.pixels, std::numeric_limits<float>::quiet_NaN());
   for (std::size_t k = 0; k < order.size(); ++k)
-    if (order[k] < wave.pixels && ids[k] < shader_count)
-      b.pixel_efficiency[wave.pixel(order[k])] = groups[k / model.width];
+    if (order[k] < batch.pixels && ids[k] < shader_count)
+      b.pixel_efficiency[batch.pixel(order[k])] = groups[k / model.width];
 }
 
 }  // namespace path_tracer

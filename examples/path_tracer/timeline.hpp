@@ -17,11 +17,11 @@ struct span {
   std::int64_t begin = 0, end = 0;  ///< nanoseconds since the rendering began
 };
 
-/// What a rendering did and when: the outer piece before those in it. A wave is in it whole or not
+/// What a rendering did and when: the outer piece before those in it. A batch is in it whole or not
 /// at all; those that are not are the last ones.
 struct timeline {
   std::vector<span> spans;
-  std::uint64_t waves = 0, waves_in_it = 0;
+  std::uint64_t batches = 0, batches_in_it = 0;
 };
 
 }  // namespace path_tracer

@@ -47,10 +47,11 @@ json event_of(span const& s, std::size_t process) {
 
 std::string left_out(run const& r) {
   timeline const& t = r.result.timeline;
-  if (t.waves_in_it == t.waves) return "";
-  return "the trace of schedule " + r.schedule + " has the first " + std::to_string(t.waves_in_it) +
-         " of " + std::to_string(t.waves) + " waves: it ends with the one that reaches " +
-         std::to_string(most_traced_spans) + " spans";
+  if (t.batches_in_it == t.batches) return "";
+  return "the trace of schedule " + r.schedule + " has the first " +
+         std::to_string(t.batches_in_it) + " of " + std::to_string(t.batches) +
+         " batches: it ends with the one that reaches " + std::to_string(most_traced_spans) +
+         " spans";
 }
 
 std::string trace_json(options const& o, std::vector<run> const& runs) {

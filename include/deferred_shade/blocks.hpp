@@ -10,9 +10,9 @@
 
 namespace deferred_shade::detail {
 
-static_assert(sizeof(std::size_t) >= 8, "sizes of waves are computed in 64 bits");
+static_assert(sizeof(std::size_t) >= 8, "sizes of batches are computed in 64 bits");
 
-/// A wave of n requests cut into blocks of equal size, the last one excepted; one worker owns a
+/// A batch of n requests cut into blocks of equal size, the last one excepted; one worker owns a
 /// block at a time.
 ///
 /// Blocks are large enough that a row of counters per block, `shaders` + 1 of them, is at most a

@@ -10,7 +10,7 @@
 namespace deferred_shade::detail {
 
 /// `n` as a count of requests, for the function that `caller` names. Throws std::invalid_argument
-/// where `n` is negative, std::length_error where no wave has so many.
+/// where `n` is negative, std::length_error where no batch has so many.
 template <class Integer>
 request_index checked_count(std::string const& caller, Integer n) {
   static_assert(std::is_integral_v<Integer> && !std::is_same_v<Integer, bool>,
@@ -23,14 +23,14 @@ request_index checked_count(std::string const& caller, Integer n) {
   }
   if (static_cast<std::make_unsigned_t<Integer>>(n) > max_requests) {
     throw std::length_error("deferred_shade::" + caller + ": n is " + std::to_string(n) +
-                            ", and a wave holds at most " + std::to_string(max_requests) +
+                            ", and a batch holds at most " + std::to_string(max_requests) +
                             " requests: their indices have 32 bits");
   }
   return static_cast<request_index>(n);
 }
 
 /// The maximum of `n`; std::invalid_argument where it points nowhere, std::length_error where no
-/// wave has so many.
+/// batch has so many.
 template <class Integer>
 request_index checked_maximum(std::string const& caller, device_count<Integer> n) {
   if (n.pointer == nullptr) {

@@ -14,7 +14,7 @@ namespace deferred_shade {
 ///
 /// `Observer` is a function object that is cheap to copy, called with each phase. What it returns,
 /// any value if it needs none, lives as long as the phase and ends with it, by an exception as
-/// well, on the thread that called shade(). `group` is told by schedules that order a wave before
+/// well, on the thread that called shade(). `group` is told by schedules that order a batch before
 /// they run it, `dispatch` by all, and in it `shader` by those that have a launch for each shader.
 /// On CUDA, what lies between is the submission of work: nothing waits, and what the observer
 /// itself puts on the stream, an event say, stands before and behind the work of the phase. Kernels

@@ -21,7 +21,7 @@ inline constexpr bool is_device_count<device_count<Integer>> = true;
 
 // What a schedule is given as the number of requests: the number itself where the host sees it.
 template <class System, class Count>
-auto wave_size(System, Count n) {
+auto batch_size(System, Count n) {
   if constexpr (is_device_count<Count> && std::is_same_v<System, cuda_system>) {
     checked_maximum("shade", n);
     return n;
@@ -65,7 +65,7 @@ void shade(Policy const& exec, Schedule const& schedule, Count n, Ids ids,
   using system = detail::system_of<Policy>;
   static_assert(!std::is_void_v<system>,
                 "exec is a policy of Thrust's system cpp, omp, tbb or, for nvcc, cuda");
-  auto const count = detail::wave_size(system{}, n);
+  auto const count = detail::batch_size(system{}, n);
   // Sized by the maximum, so that no later count allocates.
   if constexpr (detail::is_device_count<Count>) scratch.reserve(n.maximum, sizeof...(Shaders));
   if (detail::maximum_of(count) == 0) return;

@@ -113,7 +113,7 @@ class shader_table {
     return only_among<Ids...>(std::make_integer_sequence<shader_id, size()>());
   }
 
-  /// The same table for waves in which the shaders that are not `occurring` do not occur: what
+  /// The same table for batches in which the shaders that are not `occurring` do not occur: what
   /// launches one shader after another does not launch them, and requests that name them may be
   /// left alone. For a scene that is known to have no such material. Costs no code, unlike `only`.
   shader_table expecting(std::bitset<sizeof...(Shaders)> const& occurring) const {

@@ -55,7 +55,7 @@ struct efficiency_model {
   std::uint32_t width = 32;
 };
 
-/// How often each shader occurs in a wave, in requests and in groups of `width` requests.
+/// How often each shader occurs in a batch, in requests and in groups of `width` requests.
 struct occurrences {
   /// requests[k]: the requests of shader k; requests[shaders]: those that name none.
   std::vector<std::uint64_t> requests;
@@ -133,7 +133,7 @@ void efficiency_of_groups(Policy const& exec, std::size_t size, Ids const& ids,
 
 /// Counts shaders in `n` requests, in groups of `width`; the last group may be incomplete.
 ///
-/// For reports, not for every wave: allocates, and returns to the host; on CUDA, waits for the
+/// For reports, not for every batch: allocates, and returns to the host; on CUDA, waits for the
 /// stream and copies the ids to the host, which counts them. Throws std::invalid_argument where
 /// `width` is 0 or `n` negative, std::length_error where `n` exceeds `max_requests`, and
 /// std::bad_alloc.
@@ -153,9 +153,9 @@ occurrences count_occurrences(Policy const& exec, Count n, Ids ids, shader_id sh
 ///     sum(n_i |A_i|) / (width * sum(min(n_i, 1) |A_i|)),
 ///
 /// summed over all groups of `width` requests and all shaders i, where n_i counts the requests of
-/// shader i in the group and |A_i| is its cost (Hoberock et al., HPG 2009, section 5). 1 is a wave
-/// without divergence; a wave in which no shader runs wastes nothing and has 1, too. Lanes whose id
-/// names no shader are idle.
+/// shader i in the group and |A_i| is its cost (Hoberock et al., HPG 2009, section 5). 1 is a batch
+/// without divergence; a batch in which no shader runs wastes nothing and has 1, too. Lanes whose
+/// id names no shader are idle.
 ///
 /// For reports: allocates, and throws what count_occurrences throws.
 template <class Policy, class Count, class Ids>

@@ -12,16 +12,16 @@
 
 namespace deferred_shade {
 
-/// The position of a request in its wave, 0 to n - 1: what a shader is called with.
+/// The position of a request in its batch, 0 to n - 1: what a shader is called with.
 using request_index = std::uint32_t;
 
 /// The position of a shader in its table. An id at or above the size of the table names no shader.
 using shader_id = std::uint32_t;
 
-/// The most requests that one wave can hold.
+/// The most requests that one batch can hold.
 inline constexpr std::size_t max_requests = std::numeric_limits<request_index>::max();
 
-/// A number of requests that lies in memory where `shade` runs: read when the wave runs, not when
+/// A number of requests that lies in memory where `shade` runs: read when the batch runs, not when
 /// it is submitted. `maximum` is what the renderer guarantees; work space is sized by it. On CUDA,
 /// where the host cannot see the number, one that is negative counts as 0, and one above `maximum`
 /// as `maximum`.
@@ -35,7 +35,7 @@ struct device_count {
 template <class Integer>
 device_count(Integer*, std::size_t) -> device_count<std::remove_const_t<Integer>>;
 
-/// The requests of a wave, grouped by shader: a view of memory that a workspace owns.
+/// The requests of a batch, grouped by shader: a view of memory that a workspace owns.
 ///
 /// Both arrays lie where the execution policy runs: a host function may read them on cpp, omp and
 /// tbb, and no one before the work on the stream is done on CUDA. `permutation[offsets[k]]` to

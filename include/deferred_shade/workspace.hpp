@@ -39,7 +39,7 @@ struct elements {
 };
 
 /// Memory that schedules work in. It grows and never shrinks, so that a renderer that keeps one
-/// does not allocate once the largest wave has passed, or from the start after `reserve`.
+/// does not allocate once the largest batch has passed, or from the start after `reserve`.
 ///
 /// One workspace serves one `shade` at a time; on CUDA, also one stream at a time. `Allocator` is
 /// any standard allocator, Thrust's among them; the memory it gives must be accessible where
@@ -80,8 +80,8 @@ class workspace {
   }
   ~workspace() { release(); }
 
-  /// Grows to what any schedule of the library takes for waves of up to `n` requests over tables of
-  /// up to `shaders` shaders. Throws std::length_error where no wave has so many, and what the
+  /// Grows to what any schedule of the library takes for batches of up to `n` requests over tables
+  /// of up to `shaders` shaders. Throws std::length_error where no batch has so many, and what the
   /// allocator throws.
   void reserve(std::size_t n, std::size_t shaders) {
     if (n > max_requests || shaders > max_requests) {
@@ -149,7 +149,7 @@ class workspace {
     return reinterpret_cast<T*>(first);
   }
 
-  // Frees first: the memory of two waves need not fit side by side.
+  // Frees first: the memory of two batches need not fit side by side.
   void grow(std::size_t bytes) {
     std::size_t const lines = (bytes + sizeof(line) - 1) / sizeof(line);
     if (lines <= lines_) return;

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "../catch.hpp"
-#include "../support/device_wave.hpp"
+#include "../support/device_batch.hpp"
 #include "../support/every_schedule.hpp"
 #include "../support/grouping_properties.hpp"
 
@@ -47,23 +47,23 @@ TEMPLATE_TEST_CASE("a device_count of any type is clamped on the GPU", "[cuda]",
                    std::int32_t, std::uint64_t, std::int64_t) {
   test::stream stream;
   auto const exec = thrust::cuda::par_nosync.on(stream);
-  test::device_wave wave(maximum);
+  test::device_batch batch(maximum);
   thrust::device_vector<TestType> count(1);
   std::uint32_t const seed = test::run_seed();
-  auto const ids =
-      test::make_ids<std::uint8_t>(test::layout::random, maximum, test::device_wave::shaders, seed);
+  auto const ids = test::make_ids<std::uint8_t>(test::layout::random, maximum,
+                                                test::device_batch::shaders, seed);
   ds::workspace scratch{exec};
   test::for_each_schedule([&](auto schedule) {
     for (auto const& [value, worth] : counts<TestType>()) {
       CAPTURE(value, worth, seed);
       count[0] = value;
       test::cuda::wait();
-      wave.send(ids, stream);
+      batch.send(ids, stream);
       ds::shade(exec, schedule, ds::device_count{thrust::raw_pointer_cast(count.data()), maximum},
-                wave.ids(), wave.table(), scratch);
-      wave.fetch(stream);
+                batch.ids(), batch.table(), scratch);
+      batch.fetch(stream);
       stream.wait();
-      CHECK(wave.first_wrong(worth) == maximum);
+      CHECK(batch.first_wrong(worth) == maximum);
     }
   });
 }

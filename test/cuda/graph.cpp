@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A wave is captured into a CUDA graph once, and replayed with other ids and other counts.
+// A batch is captured into a CUDA graph once, and replayed with other ids and other counts.
 #include <cuda_runtime_api.h>
 #include <vector>
 
 #include "../catch.hpp"
-#include "../support/device_wave.hpp"
+#include "../support/device_batch.hpp"
 #include "../support/every_schedule.hpp"
 
 namespace ds = deferred_shade;
@@ -60,72 +60,72 @@ class graph {
 constexpr test::layout replayed[] = {test::layout::random, test::layout::coherent,
                                      test::layout::descending};
 
-std::uint32_t wave_size() { return test::quick() ? 8193 : 100003; }
+std::uint32_t batch_size() { return test::quick() ? 8193 : 100003; }
 
 }  // namespace
 
-TEST_CASE("a captured wave reads its ids when it is replayed", "[cuda]") {
-  std::uint32_t const n = wave_size();
+TEST_CASE("a captured batch reads its ids when it is replayed", "[cuda]") {
+  std::uint32_t const n = batch_size();
   test::for_each_schedule([n](auto schedule) {
     test::stream stream;
     auto const exec = thrust::cuda::par_nosync.on(stream);
-    test::device_wave wave(n);
+    test::device_batch batch(n);
     ds::workspace scratch{exec};
-    scratch.reserve(n, test::device_wave::shaders);
-    graph const captured(stream,
-                         [&] { ds::shade(exec, schedule, n, wave.ids(), wave.table(), scratch); });
+    scratch.reserve(n, test::device_batch::shaders);
+    graph const captured(
+        stream, [&] { ds::shade(exec, schedule, n, batch.ids(), batch.table(), scratch); });
     for (test::layout const how : replayed) {
       std::uint32_t const seed = test::run_seed() + static_cast<std::uint32_t>(how);
       CAPTURE(static_cast<int>(how), seed);
-      wave.send(test::make_ids<std::uint8_t>(how, n, test::device_wave::shaders, seed), stream);
+      batch.send(test::make_ids<std::uint8_t>(how, n, test::device_batch::shaders, seed), stream);
       captured.launch(stream);
-      wave.fetch(stream);
+      batch.fetch(stream);
       stream.wait();
-      CHECK(wave.first_wrong() == n);
+      CHECK(batch.first_wrong() == n);
     }
   });
 }
 
-TEST_CASE("a captured wave reads its count when it is replayed", "[cuda]") {
-  std::uint32_t const n = wave_size();
+TEST_CASE("a captured batch reads its count when it is replayed", "[cuda]") {
+  std::uint32_t const n = batch_size();
   test::for_each_schedule([n](auto schedule) {
     test::stream stream;
     auto const exec = thrust::cuda::par_nosync.on(stream);
-    test::device_wave wave(n);
+    test::device_batch batch(n);
     thrust::device_vector<std::uint32_t> count(1);
     ds::workspace scratch{exec};
-    scratch.reserve(n, test::device_wave::shaders);
+    scratch.reserve(n, test::device_batch::shaders);
     graph const captured(stream, [&] {
       ds::shade(exec, schedule, ds::device_count{thrust::raw_pointer_cast(count.data()), n},
-                wave.ids(), wave.table(), scratch);
+                batch.ids(), batch.table(), scratch);
     });
     for (std::uint32_t const present : {n / 3, n, 0U, n - 1}) {
       std::uint32_t const seed = test::run_seed() + present;
       CAPTURE(present, seed);
       count[0] = present;
       test::cuda::wait();
-      wave.send(
-          test::make_ids<std::uint8_t>(test::layout::random, n, test::device_wave::shaders, seed),
+      batch.send(
+          test::make_ids<std::uint8_t>(test::layout::random, n, test::device_batch::shaders, seed),
           stream);
       captured.launch(stream);
-      wave.fetch(stream);
+      batch.fetch(stream);
       stream.wait();
-      CHECK(wave.first_wrong(present) == n);
+      CHECK(batch.first_wrong(present) == n);
     }
   });
 }
 
-TEST_CASE("a captured wave is work for the GPU alone, and allocates nothing", "[cuda]") {
-  std::uint32_t const n = wave_size();
+TEST_CASE("a captured batch is work for the GPU alone, and allocates nothing", "[cuda]") {
+  std::uint32_t const n = batch_size();
   test::for_each_schedule([n](auto schedule) {
     test::stream stream;
     auto const exec = thrust::cuda::par_nosync.on(stream);
-    test::device_wave wave(n);
+    test::device_batch batch(n);
     ds::workspace scratch{exec};
-    scratch.reserve(n, test::device_wave::shaders);
+    scratch.reserve(n, test::device_batch::shaders);
     std::size_t const reserved = scratch.capacity();
-    graph const captured(stream,
-                         [&] { ds::shade(exec, schedule, n, wave.ids(), wave.table(), scratch); });
+    graph const captured(
+        stream, [&] { ds::shade(exec, schedule, n, batch.ids(), batch.table(), scratch); });
     CHECK(scratch.capacity() == reserved);
     auto const types = captured.node_types();
     CHECK(!types.empty());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Waves in which every thread block owns many tiles.
+// Batches in which every thread block owns many tiles.
 #include <thrust/count.h>
 #include <thrust/device_vector.h>
 #include <thrust/iterator/counting_iterator.h>
@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "../support/device_wave.hpp"
+#include "../support/device_batch.hpp"
 #include "../support/every_schedule.hpp"
 #include "../support/grouping_properties.hpp"
 
@@ -75,26 +75,26 @@ TEST_CASE("every schedule shades millions of requests", "[cuda]") {
   std::uint32_t const seed = test::run_seed();
   CAPTURE(seed);
   auto const ids =
-      test::make_ids<std::uint8_t>(test::layout::random, n, test::device_wave::shaders, seed);
+      test::make_ids<std::uint8_t>(test::layout::random, n, test::device_batch::shaders, seed);
   cudaStream_t const stream{};
-  test::device_wave wave(n);
+  test::device_batch batch(n);
   ds::workspace scratch{gpu::policy()};
   test::for_each_schedule([&](auto schedule) {
-    wave.send(ids, stream);
-    ds::shade(gpu::policy(), schedule, n, wave.ids(), wave.table(), scratch);
-    wave.fetch(stream);
+    batch.send(ids, stream);
+    ds::shade(gpu::policy(), schedule, n, batch.ids(), batch.table(), scratch);
+    batch.fetch(stream);
     gpu::wait();
-    CHECK(wave.first_wrong() == n);
+    CHECK(batch.first_wrong() == n);
   });
 }
 
-// Hidden, and run by name, as the large waves of shade.cpp are.
+// Hidden, and run by name, as the large batches of shade.cpp are.
 TEST_CASE("groupings of tens of millions of requests are stable", "[cuda][.][large]") {
   check_groupings<std::uint8_t, 11>(80000023, test::layout::random);
   check_groupings<std::uint16_t, 300>(80000023, test::layout::random);
 }
 
-TEST_CASE("the largest wave on a GPU", "[cuda][.][large]") {
+TEST_CASE("the largest batch on a GPU", "[cuda][.][large]") {
   std::size_t const n = ds::max_requests;
   auto const exec = gpu::policy();
   std::size_t free = 0;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "../catch.hpp"
-#include "../support/device_wave.hpp"
+#include "../support/device_batch.hpp"
 #include "../support/every_schedule.hpp"
 
 namespace ds = deferred_shade;
@@ -134,7 +134,7 @@ TEST_CASE("a lambda for host and device makes ids of hit records", "[cuda]") {
 }
 
 // [api_error]: a call of the CUDA runtime fails on purpose, which a tool that watches it reports.
-TEST_CASE("an error that the renderer left behind does not disturb a wave", "[cuda][api_error]") {
+TEST_CASE("an error that the renderer left behind does not disturb a batch", "[cuda][api_error]") {
   std::uint32_t const n = 20011;
   CAPTURE(test::run_seed());
   auto const ids = test::on<gpu>(random_ids(n, 40));

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "../catch.hpp"
-#include "../support/device_wave.hpp"
+#include "../support/device_batch.hpp"
 #include "../support/every_schedule.hpp"
 #include "../support/ledger.hpp"
 
@@ -22,7 +22,7 @@ namespace ds = deferred_shade;
 
 namespace {
 
-constexpr std::uint32_t shaders = test::device_wave::shaders;
+constexpr std::uint32_t shaders = test::device_batch::shaders;
 
 using counted = test::ledger_allocator<std::byte, test::cuda>;
 
@@ -37,15 +37,15 @@ std::vector<std::uint8_t> random_ids(std::uint32_t n) {
   return test::make_ids<std::uint8_t>(test::layout::random, n, shaders, test::run_seed());
 }
 
-/// Runs `schedule` on a wave of random ids; whether it is right.
+/// Runs `schedule` on a batch of random ids; whether it is right.
 template <class Schedule, class Allocator>
-bool shades_right(Schedule const& schedule, test::device_wave& wave, std::uint32_t n,
+bool shades_right(Schedule const& schedule, test::device_batch& batch, std::uint32_t n,
                   ds::workspace<Allocator>& scratch) {
-  wave.send(random_ids(n), cudaStream_t{});
-  ds::shade(test::cuda::policy(), schedule, n, wave.ids(), wave.table(), scratch);
-  wave.fetch(cudaStream_t{});
+  batch.send(random_ids(n), cudaStream_t{});
+  ds::shade(test::cuda::policy(), schedule, n, batch.ids(), batch.table(), scratch);
+  batch.fetch(cudaStream_t{});
   test::cuda::wait();
-  return wave.first_wrong() == n;
+  return batch.first_wrong() == n;
 }
 
 /// Runs what groups through a workspace, with every grouping.
@@ -53,24 +53,24 @@ template <class Allocator>
 void check_workspace(ds::workspace<Allocator>& scratch) {
   std::uint32_t const n = 20011;
   CAPTURE(test::run_seed());
-  test::device_wave wave(n);
-  CHECK(shades_right(ds::compact_then_dispatch<>{}, wave, n, scratch));
-  CHECK(shades_right(ds::sort_then_dispatch<>{}, wave, n, scratch));
-  CHECK(shades_right(ds::bucket_then_dispatch<>{}, wave, n, scratch));
+  test::device_batch batch(n);
+  CHECK(shades_right(ds::compact_then_dispatch<>{}, batch, n, scratch));
+  CHECK(shades_right(ds::sort_then_dispatch<>{}, batch, n, scratch));
+  CHECK(shades_right(ds::bucket_then_dispatch<>{}, batch, n, scratch));
 }
 
 }  // namespace
 
-TEST_CASE("a workspace on a GPU allocates when a wave is the largest so far", "[cuda]") {
+TEST_CASE("a workspace on a GPU allocates when a batch is the largest so far", "[cuda]") {
   CAPTURE(test::run_seed());
   test::for_each_schedule([](auto schedule) {
     test::ledger book;
     ds::workspace scratch{counted(book)};
     std::size_t most = 0;
     for (std::uint32_t const n : {100U, 30011U, 29000U, 100U, 30011U}) {
-      test::device_wave wave(n);
+      test::device_batch batch(n);
       std::size_t const before = book.allocations;
-      CHECK(shades_right(schedule, wave, n, scratch));
+      CHECK(shades_right(schedule, batch, n, scratch));
       CHECK(book.allocations <= before + (n > most ? 1 : 0));
       CHECK(book.live_bytes == scratch.capacity());
       most = std::max<std::size_t>(most, n);
@@ -115,29 +115,29 @@ TEST_CASE("an array whose bytes do not fit a size has no memory", "[cuda]") {
   CHECK_THROWS_AS(ds::cuda_allocator<double>().allocate(too_many), std::bad_array_new_length);
 }
 
-TEST_CASE("a wave whose memory is refused leaves results alone", "[cuda]") {
+TEST_CASE("a batch whose memory is refused leaves results alone", "[cuda]") {
   std::uint32_t const n = 30011;
   CAPTURE(test::run_seed());
   test::for_each_schedule([n](auto schedule) {
     test::ledger book;
     ds::workspace scratch{counted(book)};
-    test::device_wave wave(n);
+    test::device_batch batch(n);
     thrust::device_vector<std::uint32_t> const count(1, n);
     book.limit = 4096;
     CHECK_THROWS_AS(scratch.reserve(n, shaders), std::bad_alloc);
-    wave.send(random_ids(n), cudaStream_t{});
+    batch.send(random_ids(n), cudaStream_t{});
     // A device_count takes its memory whatever the schedule needs.
     CHECK_THROWS_AS(ds::shade(test::cuda::policy(), schedule,
                               ds::device_count{thrust::raw_pointer_cast(count.data()), n},
-                              wave.ids(), wave.table(), scratch),
+                              batch.ids(), batch.table(), scratch),
                     std::bad_alloc);
-    wave.fetch(cudaStream_t{});
+    batch.fetch(cudaStream_t{});
     test::cuda::wait();
-    CHECK(wave.first_wrong(0) == n);
+    CHECK(batch.first_wrong(0) == n);
     CHECK(scratch.capacity() == 0);
     CHECK(book.live_bytes == 0);
     book.limit = static_cast<std::size_t>(-1);
-    CHECK(shades_right(schedule, wave, n, scratch));
+    CHECK(shades_right(schedule, batch, n, scratch));
   });
 }
 

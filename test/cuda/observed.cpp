@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An observer of waves on a GPU, which puts events around the work of each phase.
+// An observer of batches on a GPU, which puts events around the work of each phase.
 // Covers cuda/renumbered.hpp as well.
 #include <deferred_shade/observed.hpp>
 
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "../catch.hpp"
-#include "../support/device_wave.hpp"
+#include "../support/device_batch.hpp"
 #include "../support/every_schedule.hpp"
 
 namespace ds = deferred_shade;
@@ -46,10 +46,10 @@ struct recorder {
   }
 };
 
-constexpr std::uint32_t wave_size = 20011;
+constexpr std::uint32_t batch_size = 20011;
 
 std::vector<std::uint8_t> some_ids() {
-  return test::make_ids<std::uint8_t>(test::layout::random, wave_size, test::device_wave::shaders,
+  return test::make_ids<std::uint8_t>(test::layout::random, batch_size, test::device_batch::shaders,
                                       test::run_seed());
 }
 
@@ -57,15 +57,15 @@ template <class Schedule>
 std::string told(Schedule const& schedule) {
   test::stream stream;
   auto const exec = thrust::cuda::par_nosync.on(stream);
-  test::device_wave wave(wave_size);
+  test::device_batch batch(batch_size);
   ds::workspace scratch{exec};
   recorder book(stream);
   ds::observed seen{scratch, book.observer()};
-  wave.send(some_ids(), stream);
-  ds::shade(exec, schedule, wave_size, wave.ids(), wave.table(), seen);
-  wave.fetch(stream);
+  batch.send(some_ids(), stream);
+  ds::shade(exec, schedule, batch_size, batch.ids(), batch.table(), seen);
+  batch.fetch(stream);
   stream.wait();
-  CHECK(wave.first_wrong() == wave_size);
+  CHECK(batch.first_wrong() == batch_size);
   return book.text;
 }
 
@@ -89,37 +89,37 @@ TEST_CASE("an observer is told the ids of the renderer's table, whatever it has 
           "[cuda]") {
   test::stream stream;
   auto const exec = thrust::cuda::par_nosync.on(stream);
-  test::device_wave wave(wave_size);
+  test::device_batch batch(batch_size);
   ds::workspace scratch{exec};
   recorder book(stream);
   ds::observed seen{scratch, book.observer()};
-  wave.send(some_ids(), stream);
-  ds::shade(exec, ds::bucket_then_dispatch<>{}, wave_size, wave.ids(), wave.table().only<1, 3>(),
+  batch.send(some_ids(), stream);
+  ds::shade(exec, ds::bucket_then_dispatch<>{}, batch_size, batch.ids(), batch.table().only<1, 3>(),
             seen);
   stream.wait();
   CHECK(book.text == "group{}dispatch{shader 1{}shader 3{}}");
 }
 
-TEST_CASE("an observed wave can be captured", "[cuda]") {
+TEST_CASE("an observed batch can be captured", "[cuda]") {
   test::for_each_schedule([](auto const& schedule) {
     test::stream stream;
     auto const exec = thrust::cuda::par_nosync.on(stream);
-    test::device_wave wave(wave_size);
+    test::device_batch batch(batch_size);
     ds::workspace scratch{exec};
-    scratch.reserve(wave_size, test::device_wave::shaders);
+    scratch.reserve(batch_size, test::device_batch::shaders);
     recorder book(stream);
     ds::observed seen{scratch, book.observer()};
     cudaGraph_t graph{};
     cudaGraphExec_t executable{};
     check_cuda(cudaStreamBeginCapture(stream, cudaStreamCaptureModeGlobal));
-    ds::shade(exec, schedule, wave_size, wave.ids(), wave.table(), seen);
+    ds::shade(exec, schedule, batch_size, batch.ids(), batch.table(), seen);
     check_cuda(cudaStreamEndCapture(stream, &graph));
     check_cuda(cudaGraphInstantiate(&executable, graph, 0));
-    wave.send(some_ids(), stream);
+    batch.send(some_ids(), stream);
     check_cuda(cudaGraphLaunch(executable, stream));
-    wave.fetch(stream);
+    batch.fetch(stream);
     stream.wait();
-    CHECK(wave.first_wrong() == wave_size);
+    CHECK(batch.first_wrong() == batch_size);
     cudaGraphExecDestroy(executable);
     cudaGraphDestroy(graph);
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Waves one right behind the other, between kernels of the renderer and with nothing in between
+// Batches one right behind the other, between kernels of the renderer and with nothing in between
 // that would wait: from compute capability 9.0 on, their kernels overlap, and none may run ahead of
 // what it needs.
 #include <cuda_runtime.h>
@@ -88,9 +88,9 @@ class rounds {
     check_cuda(cudaGetLastError());
   }
 
-  /// Notes that the ids of the next round are shaded `waves` times.
-  void expect(std::uint32_t waves) {
-    for (; waves > 0; --waves) {
+  /// Notes that the ids of the next round are shaded `batches` times.
+  void expect(std::uint32_t batches) {
+    for (; batches > 0; --batches) {
       for (std::uint32_t i = 0; i < n_; ++i) {
         std::uint32_t const id = id_of(i, expected_rounds_);
         if (id < shaders) expected_[i] = next_sum(expected_[i], id);
@@ -122,14 +122,14 @@ class rounds {
   std::uint32_t expected_rounds_ = 0;
 };
 
-std::uint32_t wave_size() { return test::quick() ? 8193 : 200003; }
+std::uint32_t batch_size() { return test::quick() ? 8193 : 200003; }
 
 }  // namespace
 
-TEST_CASE("waves of one schedule follow each other", "[cuda]") {
+TEST_CASE("batches of one schedule follow each other", "[cuda]") {
   test::for_each_schedule([](auto schedule) {
     test::stream const stream;
-    rounds all(wave_size());
+    rounds all(batch_size());
     ds::workspace scratch{thrust::cuda::par};
     for (int round = 0; round < 4; ++round) {
       all.write(stream);
@@ -142,9 +142,9 @@ TEST_CASE("waves of one schedule follow each other", "[cuda]") {
   });
 }
 
-TEST_CASE("waves of different schedules follow each other", "[cuda]") {
+TEST_CASE("batches of different schedules follow each other", "[cuda]") {
   test::stream const stream;
-  rounds all(wave_size());
+  rounds all(batch_size());
   ds::workspace scratch{thrust::cuda::par};
   for (int time = 0; time < 3; ++time) {
     test::for_each_schedule([&](auto schedule) {
@@ -158,9 +158,9 @@ TEST_CASE("waves of different schedules follow each other", "[cuda]") {
   CHECK(all.are_right(stream));
 }
 
-TEST_CASE("captured waves follow each other", "[cuda]") {
+TEST_CASE("captured batches follow each other", "[cuda]") {
   test::for_each_schedule([](auto schedule) {
-    std::uint32_t const n = wave_size();
+    std::uint32_t const n = batch_size();
     test::stream const stream;
     rounds all(n);
     ds::workspace scratch{thrust::cuda::par};

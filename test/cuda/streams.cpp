@@ -10,14 +10,14 @@
 #include <vector>
 
 #include "../catch.hpp"
-#include "../support/device_wave.hpp"
+#include "../support/device_batch.hpp"
 #include "../support/every_schedule.hpp"
 
 namespace ds = deferred_shade;
 
 namespace {
 
-constexpr std::uint32_t shaders = test::device_wave::shaders;
+constexpr std::uint32_t shaders = test::device_batch::shaders;
 
 std::vector<std::uint8_t> some_ids(std::uint32_t n, std::uint32_t seed) {
   return test::make_ids<std::uint8_t>(seed % 2 == 0 ? test::layout::random : test::layout::coherent,
@@ -38,19 +38,19 @@ std::string shade_on_own_stream(int device, std::uint32_t seed, std::uint32_t ro
   test::stream stream;
   auto const exec = thrust::cuda::par_nosync.on(stream);
   std::uint32_t const n = 30011 + seed % 5000;
-  test::device_wave wave(n);
+  test::device_batch batch(n);
   ds::workspace scratch{exec};
   for (std::uint32_t round = 0; round < rounds; ++round) {
     int number = 0;
     test::for_each_schedule([&](auto schedule) {
-      wave.send(some_ids(n, seed + round), stream);
-      ds::shade(exec, schedule, n, wave.ids(), wave.table(), scratch);
-      wave.fetch(stream);
+      batch.send(some_ids(n, seed + round), stream);
+      ds::shade(exec, schedule, n, batch.ids(), batch.table(), scratch);
+      batch.fetch(stream);
       stream.wait();
-      if (wrong.empty() && wave.first_wrong() != n) {
+      if (wrong.empty() && batch.first_wrong() != n) {
         wrong = "device " + std::to_string(device) + ", schedule " + std::to_string(number) +
                 ", round " + std::to_string(round) + ", request " +
-                std::to_string(wave.first_wrong());
+                std::to_string(batch.first_wrong());
       }
       ++number;
     });
@@ -129,25 +129,25 @@ TEST_CASE("shade returns before it has run, and runs in the order of its stream"
   std::uint32_t const seed = test::run_seed();
   CAPTURE(seed);
   test::stream stream;
-  test::device_wave wave(n);
+  test::device_batch batch(n);
   auto const check = [&](auto const& exec, auto schedule) {
     ds::workspace scratch{exec};
     // Warm: memory and the code of the kernels are on the GPU.
-    wave.send(some_ids(n, seed), stream);
-    ds::shade(exec, schedule, n, wave.ids(), wave.table(), scratch);
-    wave.fetch(stream);
+    batch.send(some_ids(n, seed), stream);
+    ds::shade(exec, schedule, n, batch.ids(), batch.table(), scratch);
+    batch.fetch(stream);
     stream.wait();
-    REQUIRE(wave.first_wrong() == n);
+    REQUIRE(batch.first_wrong() == n);
     // Other ids follow, which no one sees who does not wait for the stream.
     gate closed(stream);
-    wave.send(some_ids(n, seed + 1), stream);
-    ds::shade(exec, schedule, n, wave.ids(), wave.table(), scratch);
-    wave.fetch(stream);
+    batch.send(some_ids(n, seed + 1), stream);
+    ds::shade(exec, schedule, n, batch.ids(), batch.table(), scratch);
+    batch.fetch(stream);
     CHECK(cudaStreamQuery(stream) == cudaErrorNotReady);
     cudaGetLastError();  // that was no error
     closed.open();
     stream.wait();
-    CHECK(wave.first_wrong() == n);
+    CHECK(batch.first_wrong() == n);
   };
   test::for_each_schedule(
       [&](auto schedule) { check(thrust::cuda::par_nosync.on(stream), schedule); });
@@ -158,18 +158,18 @@ TEST_CASE("shade returns before it has run, and runs in the order of its stream"
 
 TEST_CASE("every kind of CUDA policy will do", "[cuda]") {
   std::uint32_t const n = 10007;
-  test::device_wave wave(n);
+  test::device_batch batch(n);
   std::uint32_t seed = test::run_seed();
   auto const check = [&](auto const& exec, cudaStream_t stream) {
     ++seed;
     CAPTURE(seed);
     ds::workspace scratch{exec};
     auto const check_schedule = [&](auto schedule) {
-      wave.send(some_ids(n, seed), stream);
-      ds::shade(exec, schedule, n, wave.ids(), wave.table(), scratch);
-      wave.fetch(stream);
+      batch.send(some_ids(n, seed), stream);
+      ds::shade(exec, schedule, n, batch.ids(), batch.table(), scratch);
+      batch.fetch(stream);
       test::check_cuda(cudaStreamSynchronize(stream));
-      CHECK(wave.first_wrong() == n);
+      CHECK(batch.first_wrong() == n);
     };
     check_schedule(ds::explicit_serialization{});
     check_schedule(ds::sort_then_dispatch<>{});

@@ -57,7 +57,7 @@ TEST_CASE("tiles take tables of any size", "[cuda]") {
   check_table<256>(schedule);
 }
 
-TEST_CASE("tiles of few shaders take waves of any size", "[cuda]") {
+TEST_CASE("tiles of few shaders take batches of any size", "[cuda]") {
   // Of the size that threads have several requests each for, and larger.
   cudaDeviceProp properties{};
   REQUIRE(cudaGetDeviceProperties(&properties, 0) == cudaSuccess);

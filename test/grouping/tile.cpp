@@ -59,7 +59,7 @@ TEST_CASE("the bitonic network sorts every input of zeros and ones", "[grouping]
   SUCCEED();
 }
 
-TEMPLATE_LIST_TEST_CASE("tiles cover a wave once", "[grouping]", test::host_backends) {
+TEMPLATE_LIST_TEST_CASE("tiles cover a batch once", "[grouping]", test::host_backends) {
   for (std::uint32_t const n : test::edge_sizes<TestType>()) {
     CAPTURE(n);
     std::vector<std::uint32_t> visits(n, 0);

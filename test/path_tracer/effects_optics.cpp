@@ -32,7 +32,7 @@ double by_matrices(double cos0, double wavelength, double n1, double thickness, 
 }
 
 /// One path and the glass that it meets, as effects see them.
-struct glass_wave {
+struct glass_batch {
   float* wavelength;
   vec3* origin;
   vec3* throughput;
@@ -114,15 +114,15 @@ TEST_CASE("a path keeps the wavelength that its first dispersive glass gave it",
   for (std::uint32_t k = 0; k < 200; ++k) {
     float wavelength = 0;
     vec3 origin{0}, throughput{1};
-    glass_wave const wave{&wavelength, &origin, &throughput, k};
+    glass_batch const batch{&wavelength, &origin, &throughput, k};
     point.material.dispersion = 0;
     point.ior = 1.6f;
-    effects::dispersion::at_glass(wave, 0, point);
+    effects::dispersion::at_glass(batch, 0, point);
     REQUIRE(wavelength == 0);
     REQUIRE(point.ior == 1.6f);
     point.material.dispersion = 1;
     for (int hit = 0; hit < 3; ++hit) {
-      effects::dispersion::at_glass(wave, 0, point);
+      effects::dispersion::at_glass(batch, 0, point);
       REQUIRE(wavelength >= shortest_wavelength);
       REQUIRE(wavelength < longest_wavelength);
       REQUIRE(throughput == color_of(wavelength));

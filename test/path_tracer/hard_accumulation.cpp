@@ -12,30 +12,30 @@ using namespace path_tracer;
 
 namespace {
 
-/// A wave of one path that the host runs shader by shader.
+/// A batch of one path that the host runs shader by shader.
 struct lone_path {
   vec3 vectors[7] = {};
   float pdf = 0, wavelength = 0;
   std::uint32_t primitive = 0;
   vec2 barycentric{0};
   std::uint8_t id = finished;
-  wave_view<every_effect> wave{};
+  batch_view<every_effect> batch{};
 
   lone_path() {
-    wave.origin = &vectors[0];
-    wave.direction = &vectors[1];
-    wave.throughput = &vectors[2];
-    wave.radiance = &vectors[3];
-    wave.shadow_origin = &vectors[4];
-    wave.shadow_vector = &vectors[5];
-    wave.shadow_light = &vectors[6];
-    wave.pdf = &pdf;
-    wave.primitive = &primitive;
-    wave.barycentric = &barycentric;
-    wave.id = &id;
-    wave.pixels = 1;
-    wave.max_depth = wave.roulette_from = 1u << 30;
-    static_cast<path_array<effects::dispersion, every_effect>&>(wave).states = &wavelength;
+    batch.origin = &vectors[0];
+    batch.direction = &vectors[1];
+    batch.throughput = &vectors[2];
+    batch.radiance = &vectors[3];
+    batch.shadow_origin = &vectors[4];
+    batch.shadow_vector = &vectors[5];
+    batch.shadow_light = &vectors[6];
+    batch.pdf = &pdf;
+    batch.primitive = &primitive;
+    batch.barycentric = &barycentric;
+    batch.id = &id;
+    batch.pixels = 1;
+    batch.max_depth = batch.roulette_from = 1u << 30;
+    static_cast<path_array<effects::dispersion, every_effect>&>(batch).states = &wavelength;
   }
 };
 
@@ -45,7 +45,7 @@ TEST_CASE("the mean of ten million samples is right to the last digit of a float
   std::uint64_t const seed = 631;
   fine_numbers n(seed);
   // Of mean about 1; multiples of 2^-23, so that their sum is exact in 64 bits of an integer.
-  std::uint32_t const paths = 100000, waves = 100;
+  std::uint32_t const paths = 100000, batches = 100;
   std::vector<vec3> radiance(paths);
   std::uint64_t exact = 0;
   for (vec3& r : radiance) {
@@ -53,14 +53,14 @@ TEST_CASE("the mean of ten million samples is right to the last digit of a float
     exact += steps;
     r = vec3{static_cast<float>(steps) * 0x1p-23f};
   }
-  basic_wave wave{};
-  wave.radiance = radiance.data();
-  wave.pixels = 1;
+  basic_batch batch{};
+  batch.radiance = radiance.data();
+  batch.pixels = 1;
   using sum_type = pixel_sum<summation::in_double>;
   sum_type sum;
-  for (std::uint32_t k = 0; k < waves; ++k) accumulate_samples<sum_type>{wave, paths, &sum}(0);
+  for (std::uint32_t k = 0; k < batches; ++k) accumulate_samples<sum_type>{batch, paths, &sum}(0);
   CAPTURE(seed);
-  CHECK_THAT(double{static_cast<float>(sum.total.x / (double{paths} * waves))},
+  CHECK_THAT(double{static_cast<float>(sum.total.x / (double{paths} * batches))},
              WithinRel(static_cast<double>(exact) * 0x1p-23 / paths, 6.1e-8));
 }
 
@@ -101,29 +101,29 @@ TEST_CASE("throughput next to nothing goes a thousand bounces without a trap", "
       view.lights = lights.view(s);
       view.tables = &host_albedo_tables();
       lone_path path;
-      *path.wave.origin = {0.1f, 0, 0.2f};
-      *path.wave.direction = glm::normalize(vec3{1, 0.7f, -0.4f});
-      *path.wave.throughput = vec3{1e-30f, 1, 1};
+      *path.batch.origin = {0.1f, 0, 0.2f};
+      *path.batch.direction = glm::normalize(vec3{1, 0.7f, -0.4f});
+      *path.batch.throughput = vec3{1e-30f, 1, 1};
       int bounce = 0;
       for (; bounce < 1000; ++bounce) {
-        path.wave.seed = static_cast<std::uint64_t>(bounce);
-        find_hits<every_effect>{path.wave, view}(0);
+        path.batch.seed = static_cast<std::uint64_t>(bounce);
+        find_hits<every_effect>{path.batch, view}(0);
         if (path.id == finished) break;
-        float const before = path.wave.throughput->x;
+        float const before = path.batch.throughput->x;
         CAPTURE(albedo, static_cast<int>(kind), bounce, before);
         if (path.id == static_cast<std::uint8_t>(miss)) break;  // out of the glass
         for_each_effect(all_effects{}, [&](auto effect) {
           using type = decltype(effect);
           if constexpr (detail::has_shader<type>)
             if (path.id == static_cast<std::uint8_t>(shader_of<type>))
-              surface_shader<type, every_effect>{path.wave, view}(0);
+              surface_shader<type, every_effect>{path.batch, view}(0);
         });
-        trace_shadows<every_effect>{path.wave, view}(0);
-        REQUIRE(path.wave.throughput->x >= 0);
-        REQUIRE(path.wave.throughput->x <= before * 2);
-        REQUIRE(is_finite(*path.wave.throughput));
-        REQUIRE(is_finite(*path.wave.radiance));
-        REQUIRE(path.wave.radiance->x >= 0);
+        trace_shadows<every_effect>{path.batch, view}(0);
+        REQUIRE(path.batch.throughput->x >= 0);
+        REQUIRE(path.batch.throughput->x <= before * 2);
+        REQUIRE(is_finite(*path.batch.throughput));
+        REQUIRE(is_finite(*path.batch.radiance));
+        REQUIRE(path.batch.radiance->x >= 0);
       }
       // What stays above the least float arrives; what does not ends the path, or never gets out.
       CAPTURE(albedo, static_cast<int>(kind));
@@ -132,8 +132,8 @@ TEST_CASE("throughput next to nothing goes a thousand bounces without a trap", "
     }
 }
 
-TEST_CASE("counts of rays and requests are exact over threads and waves", "[hard]") {
-  // A closed white box of depth 3: every path lives for three bounces, in several waves.
+TEST_CASE("counts of rays and requests are exact over threads and batches", "[hard]") {
+  // A closed white box of depth 3: every path lives for three bounces, in several batches.
   material wall;
   wall.kind = shader_of<effects::matte>;
   wall.base_color = vec3{1};

@@ -198,13 +198,13 @@ void sum_rows(fine_numbers& n) {
     r = vec3{static_cast<float>(2 * n.uniform())};
     exact += r.x;
   }
-  basic_wave wave{};
-  wave.radiance = radiance.data();
-  wave.pixels = 1;
+  basic_batch batch{};
+  batch.radiance = radiance.data();
+  batch.pixels = 1;
   pixel_sum<summation::in_double> sum;
   float naive = 0;
   for (int k = 0; k < 100; ++k) {
-    accumulate_samples<decltype(sum)>{wave, paths, &sum}(0);
+    accumulate_samples<decltype(sum)>{batch, paths, &sum}(0);
     for (vec3 const& r : radiance) naive += r.x;
   }
   auto const total = static_cast<double>(100 * exact);

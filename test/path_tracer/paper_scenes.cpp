@@ -56,7 +56,7 @@ TEST_CASE("the paper's scenes run as many shaders as theirs, by every schedule",
   std::vector<std::string> ran;
   for (std::string_view const name : shader_names())
     for (json const& bounce : report["schedules"][0]["bounces"])
-      if (bounce["first_wave_by_shader"].contains(std::string(name))) {
+      if (bounce["first_batch_by_shader"].contains(std::string(name))) {
         ran.emplace_back(name);
         break;
       }

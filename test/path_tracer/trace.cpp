@@ -93,9 +93,9 @@ TEST_CASE("a trace holds every schedule as a process whose spans nest", "[trace]
       if (thread != process && backend != "cuda") continue;
       auto const spans = nested(events, process, thread);
       REQUIRE(!spans.empty());
-      CHECK(spans[0].name() == (thread == process ? "render" : "wave 1"));
+      CHECK(spans[0].name() == (thread == process ? "render" : "batch 1"));
       for (char const* stage : {"generate", "accumulate"})
-        CHECK(time_in(spans, stage, "wave 1") > 0);
+        CHECK(time_in(spans, stage, "batch 1") > 0);
       for (char const* stage : {"intersect", "shade", "shadow", "count rays"})
         CHECK(time_in(spans, stage, "bounce 1") > 0);
       std::int64_t const dispatch = time_in(spans, "dispatch", "shade");
@@ -145,24 +145,24 @@ TEST_CASE("shaders of a trace have the names and numbers of those that ran", "[t
   CHECK(names.count("miss") == 1);
 }
 
-TEST_CASE("a timeline has whole waves and says how many it leaves out", "[trace]") {
+TEST_CASE("a timeline has whole batches and says how many it leaves out", "[trace]") {
   scene s;
   s.background = vec3{1};
-  render_settings settings = small(450, 2);  // three waves of at most 2^18 paths
+  render_settings settings = small(450, 2);  // three batches of at most 2^18 paths
   timeline const none = render(s, settings).timeline;
   CHECK(none.spans.empty());
-  CHECK(none.waves == 0);
+  CHECK(none.batches == 0);
   settings.most_spans = 1000;
   timeline const all = render(s, settings).timeline;
-  CHECK(all.waves == 3);
-  CHECK(all.waves_in_it == 3);
+  CHECK(all.batches == 3);
+  CHECK(all.batches_in_it == 3);
   settings.most_spans = 2;
   run const first{"local", render(s, settings)};
-  CHECK(first.result.timeline.waves == 3);
-  CHECK(first.result.timeline.waves_in_it == 1);
+  CHECK(first.result.timeline.batches == 3);
+  CHECK(first.result.timeline.batches_in_it == 1);
   CHECK(first.result.timeline.spans.size() < all.spans.size());
   CHECK(first.result.timeline.spans[0].name == "render");
-  std::string const words = "schedule local has the first 1 of 3 waves";
+  std::string const words = "schedule local has the first 1 of 3 batches";
   CHECK(left_out(first).find(words) != std::string::npos);
   options o;
   o.scene = "a\xff.gltf";  // a name need not be UTF-8

@@ -40,7 +40,7 @@ void for_each_kind(Function const& f) {
 }
 
 /// Random ids of a table, and some that it does not have.
-std::vector<std::uint8_t> wave_of(std::uint32_t n) {
+std::vector<std::uint8_t> batch_of(std::uint32_t n) {
   return test::make_ids<std::uint8_t>(test::layout::random, n, shaders, test::run_seed() + n);
 }
 
@@ -88,7 +88,7 @@ TEMPLATE_LIST_TEST_CASE("every schedule runs a part of a table, and leaves the r
     ds::workspace scratch{TestType::policy()};
     for (std::uint32_t const n : test::some_sizes()) {
       CAPTURE(n, test::run_seed());
-      auto const all = wave_of(n);
+      auto const all = batch_of(n);
       auto const ids = test::on<TestType>(all);
       test::trace<TestType> actual(n);
       auto const table = test::tracing_table<shaders>(actual.value.data(), actual.runs.data());
@@ -108,8 +108,8 @@ TEMPLATE_LIST_TEST_CASE("a specialized schedule runs every request of a scene", 
          {set_of({}), set_of({1}), set_of({0, 1}), set_of({1, 3, 4}), set_of({0, 3}), set_of({2}),
           set_of({5, 0}), set_of({0, 1, 2, 3, 4, 5})}) {
       CAPTURE(occurring, test::run_seed());
-      auto const wave = without(wave_of(several_tiles), occurring);
-      auto const ids = test::on<TestType>(wave);
+      auto const batch = without(batch_of(several_tiles), occurring);
+      auto const ids = test::on<TestType>(batch);
       ds::specialized const special{schedule, some{}, occurring};
       CHECK(special.variant() == some::covering(occurring));
       test::check_against_loop<TestType, shaders>(special, several_tiles, ids.data(), scratch);
@@ -124,13 +124,13 @@ TEMPLATE_LIST_TEST_CASE("a part of a table may be of records", "[specialized]", 
   for (request& r : requests) {
     for (auto& word : r.words) word = static_cast<std::uint32_t>(engine());
   }
-  auto const wave = without(wave_of(several_tiles), set_of({2, 3}));
+  auto const batch = without(batch_of(several_tiles), set_of({2, 3}));
   std::vector<result> expected(several_tiles);
   for (std::uint32_t i = 0; i < several_tiles; ++i) {
-    if (wave[i] < shaders) expected[i] = mixing{wave[i]}(requests[i]);
+    if (batch[i] < shaders) expected[i] = mixing{batch[i]}(requests[i]);
   }
   auto const in = test::on<TestType>(requests);
-  auto const ids = test::on<TestType>(wave);
+  auto const ids = test::on<TestType>(batch);
   for_each_kind([&](auto const& schedule) {
     auto results = test::on<TestType>(std::vector<result>(several_tiles));
     ds::workspace scratch{TestType::policy()};
@@ -149,8 +149,8 @@ TEMPLATE_LIST_TEST_CASE("shaders that are not expected are not run, others as ev
   test::for_each_schedule([](auto const& schedule) {
     for (auto const& occurring : {set_of({}), set_of({3}), set_of({0, 5}), set_of({1, 2, 3, 4})}) {
       CAPTURE(occurring);
-      auto const wave = without(wave_of(several_tiles), occurring);
-      auto const ids = test::on<TestType>(wave);
+      auto const batch = without(batch_of(several_tiles), occurring);
+      auto const ids = test::on<TestType>(batch);
       ds::workspace scratch{TestType::policy()};
       auto const expecting = [&](auto const& exec, auto n, auto first, auto const& table,
                                  auto& memory) {
@@ -178,12 +178,12 @@ TEST_CASE("explicit serialization launches what is expected, and nothing else", 
   CHECK(ran == std::vector<int>{0, 3, 0, 3, 0});
 }
 
-TEMPLATE_LIST_TEST_CASE("the shaders of a wave choose the variant", "[specialized]",
+TEMPLATE_LIST_TEST_CASE("the shaders of a batch choose the variant", "[specialized]",
                         test::backends) {
   CAPTURE(test::run_seed());
   for (auto const& kept : {set_of({}), set_of({1, 3, 4}), set_of({0, 2})}) {
-    auto const wave = without(wave_of(several_tiles), kept);
-    auto const ids = test::on<TestType>(wave);
+    auto const batch = without(batch_of(several_tiles), kept);
+    auto const ids = test::on<TestType>(batch);
     auto const exec = TestType::policy();
     auto const counts = ds::count_occurrences(exec, several_tiles, ids.data(), shaders);
     ds::specialized const special{ds::bucket_then_dispatch<>{}, some{},

@@ -10,7 +10,7 @@ TEMPLATE_LIST_TEST_CASE("window_sort_then_dispatch runs every request once", "[s
   test::check_schedule<TestType, schedule>();
 }
 
-TEMPLATE_LIST_TEST_CASE("window_sort_then_dispatch takes waves of several windows", "[schedule]",
+TEMPLATE_LIST_TEST_CASE("window_sort_then_dispatch takes batches of several windows", "[schedule]",
                         test::backends) {
   // Windows of 2^15 requests on a CPU and 2^17 on a GPU: around the end of one, and of two.
   test::ds::workspace scratch{TestType::policy()};

@@ -22,7 +22,7 @@ namespace test {
 /// What the CPU backends share, and what every backend has: `vector`, for data that a test fills
 /// and compares and that `shade` reads and writes; `allocator`, for memory that a workspace takes;
 /// `wait`, which returns when `shade` is done; `read`, which copies out of a workspace; and
-/// `many_blocks`, the size of a wave of several blocks.
+/// `many_blocks`, the size of a batch of several blocks.
 struct on_host {
   static constexpr std::uint32_t many_blocks = 50021;
   template <class T>

@@ -30,7 +30,7 @@ inline bool quick() {
   return text && std::string_view(text) == "1";
 }
 
-/// Sizes of a wave on the edges: of a SIMD group or warp, a thread block, a bitonic tile, a
+/// Sizes of a batch on the edges: of a SIMD group or warp, a thread block, a bitonic tile, a
 /// counting tile, a block of block_partition; and one of several blocks or multiprocessors.
 template <class Backend>
 std::vector<std::uint32_t> edge_sizes() {
@@ -46,7 +46,7 @@ inline std::vector<std::uint32_t> some_sizes() {
   return {0, 1, 33, 257, 8193, 16385};
 }
 
-/// How ids lie in a wave.
+/// How ids lie in a batch.
 enum class layout {
   random,      ///< all shaders, and some ids that name none
   coherent,    ///< stretches of one id, 32 long on average

@@ -40,11 +40,11 @@ struct absorption {
     return is_glass(m) && max_component(m.extinction) > 0;
   }
 
-  template <class Wave, class Point>
-  PT_HD static void at_glass(Wave const& wave, std::uint32_t i, Point& p) {
+  template <class Batch, class Point>
+  PT_HD static void at_glass(Batch const& batch, std::uint32_t i, Point& p) {
     if (p.at.front || p.material.extinction == vec3{0}) return;
-    real const length = glm::length(p.at.position - wave.origin[i]);
-    wave.throughput[i] *= glm::exp(p.material.extinction * -length);
+    real const length = glm::length(p.at.position - batch.origin[i]);
+    batch.throughput[i] *= glm::exp(p.material.extinction * -length);
   }
 };
 

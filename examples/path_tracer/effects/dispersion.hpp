@@ -34,13 +34,13 @@ struct dispersion {
     return is_glass(m) && m.dispersion > 0;
   }
 
-  template <class Wave, class Point>
-  PT_HD static void at_glass(Wave const& wave, std::uint32_t i, Point& p) {
+  template <class Batch, class Point>
+  PT_HD static void at_glass(Batch const& batch, std::uint32_t i, Point& p) {
     if (p.material.dispersion == 0) return;
-    real& wavelength = wave.template state<dispersion>(i);
+    real& wavelength = batch.template state<dispersion>(i);
     if (wavelength == 0) {
-      wavelength = sample_wavelength(wave.random(i).pair(path_draw::wavelength).x);
-      wave.throughput[i] *= color_of(wavelength);
+      wavelength = sample_wavelength(batch.random(i).pair(path_draw::wavelength).x);
+      batch.throughput[i] *= color_of(wavelength);
     }
     p.ior = dispersive_ior(p.material.ior, p.material.dispersion, wavelength);
   }

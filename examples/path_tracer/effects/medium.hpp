@@ -67,9 +67,9 @@ struct medium {
   /// Draws how far a path goes before it meets a particle, at most to `surface`, where it else
   /// arrives; true in the first case. The distance is drawn for one channel at random, and the
   /// throughput makes up for that (one-sample balance heuristic, Veach 1997).
-  template <class Wave, class View>
-  PT_HD static bool scatters(Wave const& wave, View const& m, std::uint32_t i, real surface) {
-    vec2 const u = wave.random(i).pair(path_draw::free_path + wave.bounce);
+  template <class Batch, class View>
+  PT_HD static bool scatters(Batch const& batch, View const& m, std::uint32_t i, real surface) {
+    vec2 const u = batch.random(i).pair(path_draw::free_path + batch.bounce);
     int const channel = glm::min(static_cast<int>(u.x * 3), 2);
     real const coefficient = m.extinction[channel];
     real const distance = coefficient > 0 ? -std::log(1 - u.y) / coefficient : endless;
@@ -78,8 +78,8 @@ struct medium {
     vec3 const density = inside ? m.extinction * left : left;
     real const mean = (density.x + density.y + density.z) / 3;
     vec3 const carried = inside ? m.scattering * left : left;
-    wave.throughput[i] *= mean > 0 ? carried / mean : vec3{0};
-    if (inside) wave.origin[i] += distance * vec3(wave.direction[i]);
+    batch.throughput[i] *= mean > 0 ? carried / mean : vec3{0};
+    if (inside) batch.origin[i] += distance * vec3(batch.direction[i]);
     return inside;
   }
 };

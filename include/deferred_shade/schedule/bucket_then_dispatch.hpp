@@ -11,7 +11,7 @@ namespace deferred_shade {
 /// One stable counting pass straight to a permutation and the offsets of its segments, then
 /// `Dispatch`, implicit_serialization or explicit_serialization.
 ///
-/// What sort_then_dispatch does, without keys that move: of the schedules that group a whole wave
+/// What sort_then_dispatch does, without keys that move: of the schedules that group a whole batch
 /// it reads and writes least.
 template <class Dispatch = explicit_serialization>
 struct bucket_then_dispatch {

@@ -88,7 +88,7 @@ void with_variant(variants<Variants...>, std::size_t chosen, Table const& shader
 ///
 /// `occurring`, with a bit for each shader of the table, is the renderer's to know, from the
 /// materials of its scene, and to keep true: a request that names another shader may be left alone.
-/// count_occurrences finds it for one wave.
+/// count_occurrences finds it for one batch.
 template <class Schedule, class Variants, std::size_t Shaders>
 struct specialized {
   Schedule schedule;               ///< what runs

@@ -21,14 +21,14 @@ void run_windows(host_system here, Policy const& exec, request_index n, Ids ids,
 
 }  // namespace detail
 
-/// Sorts each window of the wave by a stable counting sort, and runs it shader by shader. A window
+/// Sorts each window of the batch by a stable counting sort, and runs it shader by shader. A window
 /// is as many neighbouring requests as a second-level cache holds with what they load and store. On
 /// a CPU that is the cache of a core, and the schedule the same as local_sort_then_dispatch; on a
 /// GPU it is the one that all multiprocessors share.
 ///
 /// There it stands between local_sort_then_dispatch and bucket_then_dispatch. Tiles have few
 /// requests of each shader where shaders are many, and code that changes all the time falls out of
-/// instruction caches where shaders are long. Buckets of a whole wave bring requests of one shader
+/// instruction caches where shaders are long. Buckets of a whole batch bring requests of one shader
 /// together that lie far apart, and of what is loaded for one request a neighbour's share goes to
 /// waste.
 ///

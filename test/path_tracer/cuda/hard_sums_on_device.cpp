@@ -14,7 +14,7 @@ using namespace path_tracer;
 
 namespace {
 
-constexpr std::uint32_t pixels = 4, samples_of_wave = 100000, waves = 100;
+constexpr std::uint32_t pixels = 4, samples_of_batch = 100000, batches = 100;
 
 /// How far the mean of a sum is off, at worst over the channels.
 template <class Sum>
@@ -27,22 +27,22 @@ double error_of(Sum const& sum, double exact) {
 /// The largest error of a pixel's sum; checks that the device has the bits of the host.
 template <class Sum>
 double worst_sum(std::vector<vec3> radiance, std::vector<std::uint64_t> const& exact) {
-  basic_wave wave{};
-  wave.pixels = pixels;
+  basic_batch batch{};
+  batch.pixels = pixels;
   auto const paths = static_cast<std::uint32_t>(radiance.size());
   std::vector<Sum> on_host(pixels);
-  wave.radiance = radiance.data();
-  for (std::uint32_t k = 0; k < waves; ++k)
+  batch.radiance = radiance.data();
+  for (std::uint32_t k = 0; k < batches; ++k)
     for (std::uint32_t p = 0; p < pixels; ++p)
-      accumulate_samples<Sum>{wave, paths, on_host.data()}(p);
+      accumulate_samples<Sum>{batch, paths, on_host.data()}(p);
 
   thrust::device_vector<vec3> samples(radiance.begin(), radiance.end());
   thrust::device_vector<Sum> sums(pixels, Sum{});
-  wave.radiance = thrust::raw_pointer_cast(samples.data());
+  batch.radiance = thrust::raw_pointer_cast(samples.data());
   auto const first = thrust::counting_iterator<request_index>(0);
-  for (std::uint32_t k = 0; k < waves; ++k)
+  for (std::uint32_t k = 0; k < batches; ++k)
     thrust::for_each(thrust::device, first, first + pixels,
-                     accumulate_samples<Sum>{wave, paths, thrust::raw_pointer_cast(sums.data())});
+                     accumulate_samples<Sum>{batch, paths, thrust::raw_pointer_cast(sums.data())});
   std::vector<Sum> on_device(pixels);
   thrust::copy(sums.begin(), sums.end(), on_device.begin());
 
@@ -60,11 +60,11 @@ TEST_CASE("sums of ten million samples on the device are those of the host", "[h
   // Of mean about 1; multiples of 2^-23, so that their sum is exact in 64 bits of an integer.
   std::uint64_t const seed = 731;
   fine_numbers n(seed);
-  std::vector<vec3> radiance(std::size_t{pixels} * samples_of_wave);
+  std::vector<vec3> radiance(std::size_t{pixels} * samples_of_batch);
   std::vector<std::uint64_t> exact(pixels);
   for (std::size_t i = 0; i < radiance.size(); ++i) {
     auto const steps = static_cast<std::uint32_t>(n.uniform() * 0x1p24);
-    exact[i % pixels] += waves * std::uint64_t{steps};
+    exact[i % pixels] += batches * std::uint64_t{steps};
     radiance[i] = vec3{static_cast<float>(steps) * 0x1p-23f};
   }
   CAPTURE(seed);

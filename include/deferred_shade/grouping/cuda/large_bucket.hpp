@@ -53,7 +53,7 @@ __global__ void __launch_bounds__(bucket_threads, 3)
     std::uint32_t slots[sort::size];  // the sorted tile: the shader above the position
   } shared;
   __shared__ std::uint32_t starts[sort::columns];
-  __shared__ std::uint32_t shift[Shaders];  // from places in the tile to places in the wave
+  __shared__ std::uint32_t shift[Shaders];  // from places in the tile to places in the batch
   begin_after_earlier_kernels();
   tile_of_block const tile(size_of(n));
   std::uint32_t keys[bucket_items];

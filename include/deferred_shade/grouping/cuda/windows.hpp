@@ -11,7 +11,7 @@
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
 
-// Buckets again, but of each window of the wave by itself. Where the requests of a window end up
+// Buckets again, but of each window of the batch by itself. Where the requests of a window end up
 // depends on no other window, so that there is no scan: a tile adds up the counts of its window.
 
 namespace deferred_shade::detail {
@@ -19,7 +19,7 @@ namespace deferred_shade::detail {
 inline constexpr std::uint32_t window_tiles = 32;
 inline constexpr std::uint32_t window_size = window_tiles * bucket_tile;
 
-/// The requests of a wave, sorted by shader inside each window: a view of memory of a workspace.
+/// The requests of a batch, sorted by shader inside each window: a view of memory of a workspace.
 struct window_grouping {
   std::uint32_t const*
       sorted;                 ///< the shader in the upper 8 bits, the position in the window below

@@ -65,7 +65,7 @@ void launch_packed(Policy const& exec, Count n, Ids ids, shader_table<Shaders...
 // What a request leaves over of the memory that is read or written for it waits in the second-level
 // cache for its neighbours in the tile. With one request for each thread, no more of them are under
 // way than in a plain switch, and the cache has room. Several for each thread fill warps better,
-// and are taken where the wave is so small that it is under way as a whole then.
+// and are taken where the batch is so small that it is under way as a whole then.
 template <class Policy, class Count, class Ids, class... Shaders>
 void run_packed_tiles(Policy const& exec, Count n, Ids ids,
                       shader_table<Shaders...> const& shaders) {

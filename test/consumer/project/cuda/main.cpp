@@ -18,7 +18,7 @@ int main() {
   }
   int const n = 1000;
   renderer r;
-  int const right = shade_wave(r, n);
+  int const right = shade_batch(r, n);
   bool const grown = r.scratch.capacity() >= n * sizeof(int);
   std::printf("%d of %d requests are right, in %zu bytes\n", right, n, r.scratch.capacity());
   return right == n && grown ? 0 : 1;

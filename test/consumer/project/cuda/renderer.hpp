@@ -5,10 +5,10 @@
 #include <deferred_shade/cuda/allocator.hpp>
 #include <deferred_shade/workspace.hpp>
 
-/// What a renderer keeps from one wave to the next: no CUDA compiler is needed to hold it.
+/// What a renderer keeps from one batch to the next: no CUDA compiler is needed to hold it.
 struct renderer {
   deferred_shade::workspace<deferred_shade::cuda_allocator<std::byte>> scratch;
 };
 
 /// Shades `n` requests on the current device and gives how many came out right.
-int shade_wave(renderer& r, int n);
+int shade_batch(renderer& r, int n);

@@ -16,7 +16,7 @@ struct scale {
   DEFERRED_SHADE_HOST_DEVICE void operator()(ds::request_index i) const { out[i] = factor * in[i]; }
 };
 
-int shade_wave(renderer& r, int n) {
+int shade_batch(renderer& r, int n) {
   thrust::host_vector<float> in(n);
   thrust::host_vector<std::uint8_t> ids(n);
   for (int i = 0; i < n; ++i) {

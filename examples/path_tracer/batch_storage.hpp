@@ -24,7 +24,7 @@ using array_of = decltype(std::declval<Backend const&>().template make_array<T>(
 template <class Backend, class Effect, class Set, bool Exists = path_array<Effect, Set>::exists>
 struct path_array_storage {
   path_array_storage(Backend const&, std::size_t) {}
-  void set(wave_view<Set>&) {}
+  void set(batch_view<Set>&) {}
 };
 template <class Backend, class Effect, class Set>
 struct path_array_storage<Backend, Effect, Set, true> {
@@ -33,8 +33,8 @@ struct path_array_storage<Backend, Effect, Set, true> {
 
   path_array_storage(Backend const& backend, std::size_t paths)
       : states(backend.template make_array<state>(paths)) {}
-  void set(wave_view<Set>& wave) {
-    static_cast<path_array<Effect, Set>&>(wave).states = data_of(states);
+  void set(batch_view<Set>& batch) {
+    static_cast<path_array<Effect, Set>&>(batch).states = data_of(states);
   }
 };
 
@@ -45,14 +45,14 @@ struct path_array_storages<Backend, Set, effect_list<Effects...>>
     : path_array_storage<Backend, Effects, Set>... {
   path_array_storages(Backend const& backend, std::size_t paths)
       : path_array_storage<Backend, Effects, Set>(backend, paths)... {}
-  void set(wave_view<Set>& wave) { (path_array_storage<Backend, Effects, Set>::set(wave), ...); }
+  void set(batch_view<Set>& batch) { (path_array_storage<Backend, Effects, Set>::set(batch), ...); }
 };
 
-/// The arrays behind a wave_view, in the memory of a backend.
+/// The arrays behind a batch_view, in the memory of a backend.
 template <class Backend, class Set>
-class wave_storage {
+class batch_storage {
  public:
-  wave_storage(Backend const& backend, std::size_t paths)
+  batch_storage(Backend const& backend, std::size_t paths)
       : vectors_(backend.template make_array<vec3>(3 * paths)),
         directions_(backend.template make_array<stored_direction>(paths)),
         colors_(backend.template make_array<stored_color>(3 * paths)),
@@ -62,10 +62,10 @@ class wave_storage {
         id_(backend.template make_array<std::uint8_t>(paths)),
         of_effects_(backend, paths) {}
 
-  wave_view<Set> view() {
+  batch_view<Set> view() {
     std::size_t const n = id_.size();
     vec3* const v = data_of(vectors_);
-    wave_view<Set> w{};
+    batch_view<Set> w{};
     w.origin = v;
     w.shadow_origin = v + n;
     w.shadow_vector = v + 2 * n;

@@ -12,18 +12,18 @@
 
 namespace test {
 
-/// A wave in the memory of the current GPU alone, where no host function can read it by mistake. It
-/// travels there and back on a stream of the caller's.
-class device_wave {
+/// A batch in the memory of the current GPU alone, where no host function can read it by mistake.
+/// It travels there and back on a stream of the caller's.
+class device_batch {
  public:
   static constexpr std::uint32_t shaders = 5;
 
-  explicit device_wave(std::uint32_t n)
+  explicit device_batch(std::uint32_t n)
       : n_(n), host_ids_(n), host_value_(n), host_runs_(n), ids_(n), value_(n), runs_(n) {
     cuda::wait();
   }
 
-  /// Fills the wave with `ids`, and its trace with what no shader writes.
+  /// Fills the batch with `ids`, and its trace with what no shader writes.
   void send(std::vector<std::uint8_t> const& ids, cudaStream_t stream) {
     trace<cpp> const empty(n_);
     host_ids_.assign(ids.begin(), ids.end());
@@ -44,7 +44,7 @@ class device_wave {
   auto table() { return tracing_table<shaders>(raw(value_), raw(runs_)); }
 
   /// The first request whose trace, as it was fetched, is not what a loop over `count` requests
-  /// leaves; the size of the wave where there is none.
+  /// leaves; the size of the batch where there is none.
   std::size_t first_wrong(std::uint32_t count) const {
     trace<cpp> const expected = traced_by_loop<shaders>(n_, host_ids_.data(), count);
     return std::min(first_difference(host_runs_, expected.runs),

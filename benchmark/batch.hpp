@@ -24,7 +24,7 @@
 namespace bench {
 
 /// A random number that depends on a request and a dimension alone: requests are made in parallel,
-/// and a smaller wave is the beginning of a larger one.
+/// and a smaller batch is the beginning of a larger one.
 DEFERRED_SHADE_HOST_DEVICE inline std::uint32_t random_bits(request_index i, std::uint32_t dim) {
   return mixed(mixed(i + 1) + dim * 0x9e3779b1U);
 }
@@ -118,9 +118,9 @@ struct view {
 };
 
 /// The requests of one cell: as they come, and sorted by shader.
-class wave {
+class batch {
  public:
-  wave(std::size_t n, ds::shader_id shaders, std::uint32_t run)
+  batch(std::size_t n, ds::shader_id shaders, std::uint32_t run)
       : ids_(make_ids(n, shaders, run)),
         requests_(n),
         sorted_ids_(ids_),
