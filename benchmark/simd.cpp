@@ -3,7 +3,7 @@
 // written for vectors by hand (std::experimental::simd, where the standard library has it): what
 // decided that the library asks for no vector types. All records are in the first-level cache, and
 // packed but for the scalar loop. Names: shader / way / n / run.
-#include <deferred_shade/lanes.hpp>
+#include <deferred_shade/detail/cpu/lanes.hpp>
 
 #include <cmath>
 #include <cstring>

@@ -4,7 +4,7 @@
 #include <thrust/for_each.h>
 #include <algorithm>
 #include <array>
-#include <deferred_shade/grouping/bucket.hpp>
+#include <deferred_shade/grouping.hpp>
 #include <deferred_shade/shader_table.hpp>
 #include <numeric>
 

@@ -102,7 +102,7 @@ TEST_CASE("sines of large numbers stay what sines can be", "[math]") {
   std::uint32_t const stride = 4001;
   CAPTURE(test::run_seed());
   for (std::uint32_t bits = first + test::run_seed() % stride; bits < end; bits += stride) {
-    auto const x = deferred_shade::detail::bits_as<float>(bits);
+    auto const x = test::float_of(bits);
     CAPTURE(x);
     double const allowed = 2e-7 + static_cast<double>(x) * 0x1p-51;
     REQUIRE(std::fabs(math::sin(x) - std::sin(static_cast<double>(x))) <= allowed);

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <deferred_shade/schedule/specialized.hpp>
 #include <deferred_shade/shader_table.hpp>
+#include <deferred_shade/specialized.hpp>
 #include <tuple>
 #include <type_traits>
 

@@ -2,7 +2,7 @@
 #include "scene_effects.hpp"
 
 #include <algorithm>
-#include <deferred_shade/schedule/specialized.hpp>
+#include <deferred_shade/specialized.hpp>
 #include <stdexcept>
 #include <type_traits>
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <limits>
 
-#include <deferred_shade/bits.hpp>
 #include <deferred_shade/config.hpp>
+#include <deferred_shade/detail/bits.hpp>
 
 /// Functions for shaders that run in vectors: those of `<cmath>` are calls, and a loop with a call
 /// in it stays scalar. These are made of arithmetic and selections alone, so that a compiler that

@@ -4,10 +4,10 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include <deferred_shade/counts.hpp>
-#include <deferred_shade/gaps.hpp>
+#include <deferred_shade/detail/checked_count.hpp>
+#include <deferred_shade/detail/shader_subset.hpp>
+#include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/shader_table.hpp>
-#include <deferred_shade/system.hpp>
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
 

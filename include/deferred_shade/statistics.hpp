@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include <deferred_shade/blocks.hpp>
-#include <deferred_shade/counts.hpp>
-#include <deferred_shade/system.hpp>
+#include <deferred_shade/detail/checked_count.hpp>
+#include <deferred_shade/detail/cpu/block_partition.hpp>
+#include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/types.hpp>
 #ifdef __CUDACC__
-#include <deferred_shade/cuda/host_copy.hpp>
+#include <deferred_shade/detail/cuda/host_copy.hpp>
 #endif
 
 namespace deferred_shade {

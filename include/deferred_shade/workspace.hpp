@@ -13,11 +13,11 @@
 #include <type_traits>
 #include <utility>
 
-#include <deferred_shade/blocks.hpp>
-#include <deferred_shade/system.hpp>
+#include <deferred_shade/detail/cpu/block_partition.hpp>
+#include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/types.hpp>
 #ifdef __CUDACC__
-#include <deferred_shade/cuda/allocator.hpp>
+#include <deferred_shade/cuda.hpp>
 #endif
 
 namespace deferred_shade {

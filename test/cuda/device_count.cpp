@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "../catch.hpp"
-#include "../support/device_batch.hpp"
-#include "../support/every_schedule.hpp"
-#include "../support/grouping_properties.hpp"
+#include "catch.hpp"
+#include "support/device_batch.hpp"
+#include "support/every_schedule.hpp"
+#include "support/grouping_properties.hpp"
 
 namespace ds = deferred_shade;
 

@@ -3,9 +3,9 @@
 #include <cuda_runtime_api.h>
 #include <vector>
 
-#include "../catch.hpp"
-#include "../support/device_batch.hpp"
-#include "../support/every_schedule.hpp"
+#include "catch.hpp"
+#include "support/device_batch.hpp"
+#include "support/every_schedule.hpp"
 
 namespace ds = deferred_shade;
 

@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "../support/device_batch.hpp"
-#include "../support/every_schedule.hpp"
-#include "../support/grouping_properties.hpp"
+#include "support/device_batch.hpp"
+#include "support/every_schedule.hpp"
+#include "support/grouping_properties.hpp"
 
 namespace ds = deferred_shade;
 

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "../catch.hpp"
-#include "../support/device_batch.hpp"
-#include "../support/every_schedule.hpp"
+#include "catch.hpp"
+#include "support/device_batch.hpp"
+#include "support/every_schedule.hpp"
 
 namespace ds = deferred_shade;
 

@@ -8,9 +8,9 @@
 #include <limits>
 #include <vector>
 
-#include "../catch.hpp"
-#include "../support/backends.hpp"
-#include "../support/ulp.hpp"
+#include "catch.hpp"
+#include "support/backends.hpp"
+#include "support/ulp.hpp"
 
 namespace math = deferred_shade::math;
 

@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "../catch.hpp"
-#include "../support/device_batch.hpp"
-#include "../support/every_schedule.hpp"
-#include "../support/ledger.hpp"
+#include "catch.hpp"
+#include "support/device_batch.hpp"
+#include "support/every_schedule.hpp"
+#include "support/ledger.hpp"
 
 namespace ds = deferred_shade;
 

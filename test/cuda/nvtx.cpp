@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a tool that attaches to NVTX sees. Needs NVTX's headers, but neither a GPU nor nvcc.
-#include <deferred_shade/cuda/nvtx.hpp>
+#include <deferred_shade/nvtx.hpp>
 
 #include <stdlib.h>  // unsetenv
 
@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "../catch.hpp"
-#include "../support/backends.hpp"
+#include "catch.hpp"
+#include "support/backends.hpp"
 
 namespace ds = deferred_shade;
 

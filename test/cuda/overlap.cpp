@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "../catch.hpp"
-#include "../support/compare.hpp"
-#include "../support/cuda.hpp"
-#include "../support/every_schedule.hpp"
-#include "../support/random_ids.hpp"
+#include "catch.hpp"
+#include "support/compare.hpp"
+#include "support/cuda.hpp"
+#include "support/every_schedule.hpp"
+#include "support/random_ids.hpp"
 
 namespace ds = deferred_shade;
 

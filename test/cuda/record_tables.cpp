@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "../catch.hpp"
-#include "../support/backends.hpp"
-#include "../support/compare.hpp"
-#include "../support/every_schedule.hpp"
-#include "../support/records.hpp"
+#include "catch.hpp"
+#include "support/backends.hpp"
+#include "support/compare.hpp"
+#include "support/every_schedule.hpp"
+#include "support/records.hpp"
 
 namespace ds = deferred_shade;
 

@@ -3,11 +3,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "../catch.hpp"
-#include "../support/backends.hpp"
-#include "../support/compare.hpp"
-#include "../support/every_schedule.hpp"
-#include "../support/records.hpp"
+#include "catch.hpp"
+#include "support/backends.hpp"
+#include "support/compare.hpp"
+#include "support/every_schedule.hpp"
+#include "support/records.hpp"
 
 namespace ds = deferred_shade;
 

@@ -3,15 +3,14 @@
 // both sides of each size of a table at which they are sorted, or their records moved, in another
 // way. Covers cuda/tile_rows.hpp as well.
 #include <cstdint>
-#include <deferred_shade/schedule/local_sort_then_dispatch.hpp>
-#include <deferred_shade/schedule/window_sort_then_dispatch.hpp>
+#include <deferred_shade/schedule.hpp>
 #include <vector>
 
-#include "../catch.hpp"
-#include "../support/backends.hpp"
-#include "../support/compare.hpp"
-#include "../support/records.hpp"
-#include "../support/schedule_properties.hpp"
+#include "catch.hpp"
+#include "support/backends.hpp"
+#include "support/compare.hpp"
+#include "support/records.hpp"
+#include "support/schedule_properties.hpp"
 
 namespace ds = deferred_shade;
 

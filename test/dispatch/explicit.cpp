@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <deferred_shade/dispatch/explicit.hpp>
+#include <deferred_shade/dispatch.hpp>
 
-#include "../support/schedule_properties.hpp"
+#include "support/schedule_properties.hpp"
 
 using schedule = test::ds::explicit_serialization;
 

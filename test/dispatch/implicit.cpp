@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <deferred_shade/dispatch/implicit.hpp>
+#include <deferred_shade/dispatch.hpp>
 
 #include <numeric>
 
-#include "../support/schedule_properties.hpp"
+#include "support/schedule_properties.hpp"
 
 using schedule = test::ds::implicit_serialization;
 

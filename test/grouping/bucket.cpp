@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // In a CUDA build, covers cuda/load_keys.hpp, rank_in_warp.hpp, thread_counts.hpp, tile_sort.hpp
 // and warp.hpp as well, by tables of all the sizes at which they count and rank in another way.
-#include <deferred_shade/grouping/bucket.hpp>
+#include <deferred_shade/grouping.hpp>
 
-#include "../support/grouping_properties.hpp"
+#include "support/grouping_properties.hpp"
 
 namespace {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <deferred_shade/grouping/compact.hpp>
+#include <deferred_shade/grouping.hpp>
 
 #include <bitset>
 #include <cstdint>
 #include <vector>
 
-#include "../support/grouping_properties.hpp"
+#include "support/grouping_properties.hpp"
 
 namespace {
 

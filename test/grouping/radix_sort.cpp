@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <deferred_shade/grouping/radix_sort.hpp>
+#include <deferred_shade/grouping.hpp>
 
-#include "../support/grouping_properties.hpp"
+#include "support/grouping_properties.hpp"
 
 namespace {
 
@@ -25,13 +25,4 @@ TEMPLATE_LIST_TEST_CASE("group_by_radix_sort is a stable sort by shader", "[grou
   check<TestType, std::uint16_t, 256>();  // two-byte keys from here on
   check<TestType, std::uint32_t, 1000>();
   check<TestType, std::int32_t, 3000>();
-}
-
-TEST_CASE("a sort key is as narrow as the table allows", "[grouping]") {
-  // One more value than the table has shaders: for requests that name none.
-  STATIC_REQUIRE(sizeof(test::ds::detail::sort_key<1>) == 1);
-  STATIC_REQUIRE(sizeof(test::ds::detail::sort_key<255>) == 1);
-  STATIC_REQUIRE(sizeof(test::ds::detail::sort_key<256>) == 2);
-  STATIC_REQUIRE(sizeof(test::ds::detail::sort_key<65535>) == 2);
-  STATIC_REQUIRE(sizeof(test::ds::detail::sort_key<65536>) == 4);
 }

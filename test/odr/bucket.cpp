@@ -2,7 +2,7 @@
 // Compiled once for each instruction set, as BUCKET: how many of `n` requests have a shader.
 #include <thrust/system/cpp/execution_policy.h>
 #include <cstdint>
-#include <deferred_shade/grouping/bucket.hpp>
+#include <deferred_shade/grouping.hpp>
 #include <vector>
 
 std::uint32_t BUCKET(std::uint32_t n);

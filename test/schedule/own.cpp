@@ -3,7 +3,7 @@
 // the offsets of a grouping on the host, and so runs there alone.
 #include <examples/largest_first_then_dispatch.hpp>
 
-#include "../support/schedule_properties.hpp"
+#include "support/schedule_properties.hpp"
 
 TEMPLATE_LIST_TEST_CASE("a user's schedule runs every request once", "[schedule]",
                         test::host_backends) {

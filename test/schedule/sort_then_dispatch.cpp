@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <deferred_shade/schedule/sort_then_dispatch.hpp>
+#include <deferred_shade/schedule.hpp>
 
-#include <deferred_shade/dispatch/explicit.hpp>
-#include <deferred_shade/dispatch/implicit.hpp>
+#include <deferred_shade/dispatch.hpp>
 
-#include "../support/schedule_properties.hpp"
+#include "support/schedule_properties.hpp"
 
 namespace {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <deferred_shade/schedule/window_sort_then_dispatch.hpp>
+#include <deferred_shade/schedule.hpp>
 
-#include "../support/schedule_properties.hpp"
+#include "support/schedule_properties.hpp"
 
 using schedule = test::ds::window_sort_then_dispatch;
 

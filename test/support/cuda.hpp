@@ -7,7 +7,7 @@
 #include <thrust/system_error.h>
 #include <cstddef>
 #include <cstdint>
-#include <deferred_shade/cuda/allocator.hpp>
+#include <deferred_shade/cuda.hpp>
 #include <vector>
 
 namespace test {

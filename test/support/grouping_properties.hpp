@@ -5,8 +5,8 @@
 #include <deferred_shade/workspace.hpp>
 #include <vector>
 
-#include "../catch.hpp"
 #include "backends.hpp"
+#include "catch.hpp"
 #include "compare.hpp"
 #include "random_ids.hpp"
 

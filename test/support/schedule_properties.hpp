@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "../catch.hpp"
 #include "backends.hpp"
+#include "catch.hpp"
 #include "compare.hpp"
 #include "random_ids.hpp"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <deferred_shade/bits.hpp>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -28,13 +28,20 @@ inline double error_in_ulp(float got, long double exact) {
   return static_cast<double>(std::fabs(got - exact) / ulp);
 }
 
+/// The float with these bits.
+inline float float_of(std::uint32_t bits) {
+  float result;
+  std::memcpy(&result, &bits, sizeof result);
+  return result;
+}
+
 /// About a hundred thousand floats, of all signs and exponents, NaN and denormal numbers among
 /// them; other ones for other seeds.
 inline std::vector<float> floats_of_all_kinds() {
   std::uint32_t const stride = 40009;
   std::vector<float> result;
   for (std::uint64_t bits = run_seed() % stride; bits <= 0xffffffffU; bits += stride) {
-    result.push_back(deferred_shade::detail::bits_as<float>(static_cast<std::uint32_t>(bits)));
+    result.push_back(float_of(static_cast<std::uint32_t>(bits)));
   }
   return result;
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <cstddef>
-#include <deferred_shade/cuda/allocator.hpp>
+#include <deferred_shade/cuda.hpp>
 #include <deferred_shade/workspace.hpp>
 
 /// What a renderer keeps from one batch to the next: no CUDA compiler is needed to hold it.

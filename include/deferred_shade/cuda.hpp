@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cuda_runtime_api.h>
+#include <cstddef>
+#include <new>
+#include <stdexcept>
+#include <string>
+
+namespace deferred_shade {
+
+/// What is thrown where a call of the CUDA runtime fails; the message says what was being done.
+///
+/// Not thrust::system_error: the name of Thrust's namespace holds the list of GPU architectures, so
+/// that a source compiled by g++ could not catch what one compiled by nvcc throws.
+class cuda_error : public std::runtime_error {
+ public:
+  cuda_error(cudaError_t code, char const* doing)
+      : std::runtime_error("deferred_shade: " + std::string(doing) + ": " + cudaGetErrorName(code) +
+                           ", " + cudaGetErrorString(code)),
+        code_(code) {}
+
+  cudaError_t code() const noexcept { return code_; }
+
+ private:
+  cudaError_t code_;
+};
+
+namespace detail {
+
+/// Throws a cuda_error where `status` is one. Allocates nothing where it is not.
+inline void check_cuda(cudaError_t status, char const* doing) {
+  if (status == cudaSuccess) return;
+  cudaGetLastError();  // else the next call would report it again
+  throw cuda_error(status, doing);
+}
+
+/// Before a call of CUB, which would take what the renderer left there for an error of its own.
+inline void forget_earlier_error() { cudaGetLastError(); }
+
+}  // namespace detail
+
+/// An allocator of memory on the current CUDA device: what a workspace takes unless it is given
+/// another one.
+///
+/// Needs no CUDA compiler, only the headers of the CUDA runtime and its library, so that a
+/// translation unit for the host can hold a `workspace<cuda_allocator<std::byte>>`. Throws
+/// cuda_error, with the bytes and the device in its message, where the memory cannot be
+/// had.
+template <class T>
+struct cuda_allocator {
+  using value_type = T;
+
+  cuda_allocator() = default;
+  template <class U>
+  cuda_allocator(cuda_allocator<U> const&) noexcept {}
+
+  T* allocate(std::size_t n) {
+    if (n > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_array_new_length();
+    int device = 0;
+    detail::check_cuda(cudaGetDevice(&device), "looking for a CUDA device");
+    void* memory = nullptr;
+    cudaError_t const status = cudaMalloc(&memory, n * sizeof(T));
+    if (status != cudaSuccess) {
+      std::string const doing = "allocating " + std::to_string(n * sizeof(T)) +
+                                " bytes on CUDA device " + std::to_string(device);
+      detail::check_cuda(status, doing.c_str());
+    }
+    return static_cast<T*>(memory);
+  }
+
+  // Waits for what runs on the device.
+  void deallocate(T* memory, std::size_t) noexcept {
+    if (cudaFree(memory) != cudaSuccess) cudaGetLastError();
+  }
+
+  template <class U>
+  bool operator==(cuda_allocator<U> const&) const noexcept {
+    return true;
+  }
+  template <class U>
+  bool operator!=(cuda_allocator<U> const&) const noexcept {
+    return false;
+  }
+};
+
+}  // namespace deferred_shade

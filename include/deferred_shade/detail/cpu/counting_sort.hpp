@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <iterator>
+#include <utility>
+
+#include <deferred_shade/config.hpp>
+#include <deferred_shade/detail/cpu/prefetch.hpp>
+#include <deferred_shade/types.hpp>
+
+// The steps of a stable counting sort on a CPU: ids are loaded as keys, which compilers make
+// vectors of; keys are counted; and what they belong to is put to its place.
+
+namespace deferred_shade::detail {
+
+/// The ids of request `first` and of those after it. A loop that counts from 0 over them becomes
+/// vectors; one over `first + i` does not, because such a sum may wrap.
+template <class Ids>
+Ids ids_from(Ids const& ids, request_index first) {
+  return ids + static_cast<typename std::iterator_traits<Ids>::difference_type>(first);
+}
+
+/// Loads the shaders of the first `size` requests: `Shaders` for those that name none.
+template <shader_id Shaders, class Ids>
+void load_keys(Ids const& ids, std::size_t size, sort_key<Shaders>* __restrict keys) {
+  for (std::size_t i = 0; i < size; ++i) {
+    keys[i] = static_cast<sort_key<Shaders>>(
+        detail::shader_of(ids, static_cast<request_index>(i), Shaders));
+  }
+}
+
+/// The same for the `size` requests from `first` on, at most `Size`.
+template <shader_id Shaders, std::size_t Size, class Ids>
+void load_keys(Ids const& ids, request_index first, request_index size,
+               sort_key<Shaders> (&keys)[Size]) {
+  if (size == Size) {
+    load_keys<Shaders>(ids_from(ids, first), Size, keys);  // vectors at -O2, too
+  } else {
+    load_keys<Shaders>(ids_from(ids, first), size, keys);
+  }
+}
+
+#if DEFERRED_SHADE_HAS_GNU
+// No wider than the instructions are: g++ takes wider ones apart byte by byte.
+#ifdef __AVX2__
+using byte_vector = std::uint8_t __attribute__((vector_size(32)));
+#else
+using byte_vector = std::uint8_t __attribute__((vector_size(16)));
+#endif
+#else
+using byte_vector = std::uint8_t;
+#endif
+
+/// Whether keys are counted by comparing vectors of them with every shader in turn: for few shaders
+/// less work than to look at the keys one by one.
+template <shader_id Shaders>
+inline constexpr bool are_compared = DEFERRED_SHADE_HAS_GNU&& Shaders <= sizeof(byte_vector);
+
+/// The parts of a sequence that are counted in turn. Neighbours often are the same, and the one
+/// increment waits for the other; but the counters are to stay in the first-level cache.
+template <shader_id Shaders>
+inline constexpr request_index parts_in_turn = Shaders < 512 ? 8 : 1;
+
+/// How often each of the keys 0 to `Shaders` occurs in each part of a sequence: in `Parts` parts of
+/// equal length, and what is left over is the last one's.
+template <shader_id Shaders, request_index Parts = parts_in_turn<Shaders>>
+class key_counts {
+  using key = sort_key<Shaders>;
+
+ public:
+  void add(key const* keys, request_index size) {
+    request_index compared = 0;
+#if DEFERRED_SHADE_HAS_GNU
+    if constexpr (are_compared<Shaders>) {
+      request_index const length = size / Parts;
+      for (request_index p = 0; p < Parts; ++p) {
+        compared = add_vectors(keys + p * length, length, of_part_[p]);
+      }
+    }
+#endif
+    in_turn(compared, size, [keys](std::uint32_t* counts, std::size_t i) { ++counts[keys[i]]; });
+  }
+
+  std::uint32_t of(shader_id k) const {
+    std::uint32_t sum = 0;
+    for (auto const& counts : of_part_) sum += counts[k];
+    return sum;
+  }
+
+  /// Puts the numbers `first` to `first + size - 1` to the places of their keys, in this order:
+  /// next[k] is the place of the next number whose key is k, before and after. The keys are those
+  /// of the one call of `add` before; counts are places then.
+  template <class Number>
+  void place(key const* keys, request_index size, Number first, std::uint32_t* next,
+             Number* places) {
+    for (shader_id k = 0; k <= Shaders; ++k) {
+      for (auto& counts : of_part_) counts[k] = std::exchange(next[k], next[k] + counts[k]);
+    }
+    in_turn(0, size, [=](std::uint32_t* next_of_part, std::size_t i) {
+      places[next_of_part[keys[i]]++] = static_cast<Number>(first + i);
+    });
+  }
+
+ private:
+  // Calls `f(counts, i)` for every key i from number `begin` of its part on. In 64 bits, which do
+  // not wrap: clang keeps a counter for each part otherwise, in memory.
+  template <class Function>
+  void in_turn(std::size_t begin, std::size_t size, Function const& f) {
+    std::size_t const length = size / Parts;
+    for (std::size_t i = begin; i < length; ++i) {
+      for (std::size_t p = 0; p < Parts; ++p) f(of_part_[p], p * length + i);
+    }
+    for (std::size_t i = Parts * length; i < size; ++i) f(of_part_[Parts - 1], i);
+  }
+
+#if DEFERRED_SHADE_HAS_GNU
+  // Subtracts the answers, which are -1 where a key is that of the shader. Returns how many keys it
+  // has counted. Where the inner loop is not unrolled, g++ keeps the counts in memory.
+  static request_index add_vectors(key const* keys, request_index size, std::uint32_t* counts_of) {
+    constexpr std::uint32_t width = sizeof(byte_vector), together = 4;  // shaders to a load of keys
+    request_index i = 0;
+    while (size - i >= width) {
+      request_index const rows = std::min((size - i) / width, request_index{255});
+      counts_of[Shaders] += rows * width;  // less those that are a shader's
+      for (shader_id k = 0; k < Shaders; k += together) {
+        byte_vector counts[together] = {};
+        for (request_index row = 0; row < rows; ++row) {
+          byte_vector some;
+          std::memcpy(&some, keys + i + row * width, width);
+#pragma GCC unroll 4
+          for (shader_id j = 0; j < together; ++j) {
+            counts[j] -= reinterpret_cast<byte_vector>(some == static_cast<std::uint8_t>(k + j));
+          }
+        }
+        for (shader_id j = 0; j < together && k + j < Shaders; ++j) {
+          std::uint32_t sum = 0;
+          for (request_index lane = 0; lane < width; ++lane) sum += counts[j][lane];
+          counts_of[k + j] += sum;
+          counts_of[Shaders] -= sum;
+        }
+      }
+      i += rows * width;
+    }
+    return i;
+  }
+#endif
+
+  std::uint32_t of_part_[Parts][Shaders + 1] = {};
+};
+
+/// How many neighbouring keys are looked at together, and whether that many are the same.
+inline constexpr request_index key_step = 8;
+template <class Key>
+bool are_same(Key const* keys) {
+  return std::memcmp(keys, keys + 1, (key_step - 1) * sizeof(Key)) == 0;
+}
+
+/// In how many quarters of all looks neighbours are the same, by a look at an eighth of them.
+template <class Key>
+request_index quarters_same(Key const* keys, request_index size) {
+  request_index looks = 0, same = 0;
+  for (request_index i = 0; size - i >= key_step; ++looks, i += std::min(size - i, 8 * key_step)) {
+    same += are_same(keys + i);
+  }
+  return looks == 0 ? 0 : 4 * same / looks;
+}
+
+/// Puts one number to the place of its key. What lies behind that is prefetched into the cache
+/// `Ahead`: processors do so by themselves too late, and for many places not at all. `none` is for
+/// places that are near each other.
+template <cache Ahead, class Number>
+void place_one(std::size_t key, Number number, std::uint32_t* next, Number* places) {
+  std::uint32_t const place = next[key]++;
+  places[place] = number;
+  prefetch<Ahead>(places, place + 128 / sizeof(Number));
+}
+
+/// The same as key_counts::place with no counts of these keys, one after the other.
+template <cache Ahead, class Key, class Number>
+void place_each(Key const* keys, request_index size, Number first, std::uint32_t* next,
+                Number* places) {
+  request_index i = 0;
+#if DEFERRED_SHADE_HAS_GNU && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+  if constexpr (Ahead == cache::second_level) {  // loads are many: eight bytes of keys by one
+    for (std::uint64_t word; size - i >= sizeof word / sizeof(Key);) {
+      std::memcpy(&word, keys + i, sizeof word);
+      for (std::size_t bit = 0; bit < 64; bit += 8 * sizeof(Key), ++i) {
+        place_one<Ahead>(static_cast<Key>(word >> bit), static_cast<Number>(first + i), next,
+                         places);
+      }
+    }
+  }
+#endif
+  for (; i < size; ++i) place_one<Ahead>(keys[i], static_cast<Number>(first + i), next, places);
+}
+
+/// As place_each, but those that are the same take one look at `next`, where each would wait for
+/// the one before.
+template <cache Ahead, class Key, class Number>
+void place_by_keys(Key const* keys, request_index size, Number first, std::uint32_t* next,
+                   Number* places) {
+  request_index i = 0;
+  for (bool const coherent = quarters_same(keys, size) > 0; coherent && size - i >= key_step;
+       i += key_step) {
+    auto const number = static_cast<Number>(first + i);
+    if (are_same(keys + i)) {
+      Number* const here = places + next[keys[i]];
+      next[keys[i]] += key_step;
+      prefetch<Ahead>(here, 320 / sizeof(Number));
+      for (request_index j = 0; j < key_step; ++j) here[j] = static_cast<Number>(number + j);
+    } else {
+      place_each<Ahead>(keys + i, key_step, number, next, places);
+    }
+  }
+  place_each<Ahead>(keys + i, size - i, static_cast<Number>(first + i), next, places);
+}
+
+}  // namespace deferred_shade::detail

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <thrust/sort.h>
+#include <thrust/system/cpp/execution_policy.h>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <numeric>
+#include <utility>
+
+#include <deferred_shade/detail/cpu/block_partition.hpp>
+#include <deferred_shade/detail/cpu/counting_sort.hpp>
+#include <deferred_shade/detail/system.hpp>
+#include <deferred_shade/types.hpp>
+#include <deferred_shade/workspace.hpp>
+
+namespace deferred_shade::detail {
+
+/// Hands out a piece of a workspace to a Thrust algorithm, front to back, and takes nothing back.
+class arena {
+ public:
+  using value_type = std::byte;
+
+  arena(std::byte* first, std::size_t size) noexcept : next_(first), last_(first + size) {}
+
+  std::byte* allocate(std::size_t size) {
+    std::size_t const aligned = (size + 15) / 16 * 16;
+    if (aligned > static_cast<std::size_t>(last_ - next_)) throw std::bad_alloc();
+    return std::exchange(next_, next_ + aligned);
+  }
+  void deallocate(std::byte*, std::size_t) noexcept {}
+
+ private:
+  std::byte* next_;
+  std::byte* last_;
+};
+
+template <shader_id Shaders, class Policy, class Ids, class Workspace>
+grouping radix_grouping(host_system, Policy const& exec, request_index n, Ids ids,
+                        Workspace& scratch) {
+  using key = sort_key<Shaders>;
+  block_partition const blocks(n, Shaders);
+  constexpr shader_id columns = Shaders + 1;
+  constexpr std::size_t pair_size = sizeof(key) + sizeof(request_index);
+  auto const [permutation, keys, indices, temporary, counts, offsets] =
+      scratch.take(elements<request_index>(n), elements<key>(n), elements<request_index>(n),
+                   elements<std::byte>((std::size_t{n} + 63) / 64 * 64 * pair_size),
+                   elements<std::uint32_t>(blocks.max_count(n, Shaders) * columns),
+                   elements<request_index>(columns));
+
+  for_each_block(
+      exec, blocks,
+      [=, keys = keys, indices = indices, temporary = temporary, counts = counts](std::size_t b) {
+        std::size_t const begin = blocks.begin(b);
+        std::size_t const size = blocks.end(b) - begin;
+        key* const first = keys + begin;
+        load_keys<Shaders>(ids_from(ids, static_cast<request_index>(begin)), size, first);
+        std::iota(indices + begin, indices + begin + size, static_cast<request_index>(begin));
+        arena memory(temporary + begin * pair_size, (size + 63) / 64 * 64 * pair_size);
+        thrust::stable_sort_by_key(thrust::cpp::par(memory), first, first + size, indices + begin);
+
+        std::uint32_t* const row = counts + b * columns;
+        key const* run = first;
+        for (shader_id k = 0; k <= Shaders; ++k) {
+          auto const end = std::upper_bound<key const*>(run, first + size, static_cast<key>(k));
+          row[k] = static_cast<std::uint32_t>(end - run);
+          run = end;
+        }
+      });
+  scan_columns(blocks, columns, counts, offsets);
+  for_each_block(exec, blocks,
+                 [=, permutation = permutation, indices = indices, counts = counts,
+                  offsets = offsets](std::size_t b) {
+                   std::uint32_t const* const row = counts + b * columns;
+                   request_index const* run = indices + blocks.begin(b);
+                   for (shader_id k = 0; k < Shaders; ++k) {
+                     // The next block's place in the segment, or the segment's end, tells
+                     // how long the run is.
+                     std::uint32_t const end =
+                         b + 1 < blocks.count() ? row[columns + k] : offsets[k + 1];
+                     std::copy_n(run, end - row[k], permutation + row[k]);
+                     run += end - row[k];
+                   }
+                 });
+  return {permutation, offsets, n};
+}
+
+}  // namespace deferred_shade::detail

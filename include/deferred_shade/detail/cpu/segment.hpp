@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include <deferred_shade/detail/cpu/lanes.hpp>
+#include <deferred_shade/detail/cpu/prefetch.hpp>
+#include <deferred_shade/record_shaders.hpp>
+#include <deferred_shade/types.hpp>
+
+// How a CPU runs one shader on many requests: their records are packed, and the shader runs over
+// them in a loop that compilers vectorise (docs/records.md, "Vectors on a CPU").
+
+/// Goes before a function that is compiled by itself, with all that it calls inlined.
+#if DEFERRED_SHADE_HAS_GNU
+#define DEFERRED_SHADE_FLATTEN __attribute__((flatten, noinline))
+#else
+#define DEFERRED_SHADE_FLATTEN
+#endif
+
+namespace deferred_shade::detail {
+
+/// Whether a function lets its requests be packed: it does unless it says
+/// `static constexpr bool runs_in_vectors = false;`.
+template <class Function, class = void>
+inline constexpr bool may_run_in_vectors = true;
+template <class Function>
+inline constexpr bool
+    may_run_in_vectors<Function, std::void_t<decltype(Function::runs_in_vectors)>> =
+        Function::runs_in_vectors;
+
+/// Whether the requests of a shader are packed.
+template <class Shader>
+inline constexpr bool is_packable = false;
+template <class Source, class Function, class Sink>
+inline constexpr bool is_packable<record_shader<Source, Function, Sink>> =
+    may_run_in_vectors<Function>&&
+        has_words<typename record_shader<Source, Function, Sink>::request_type>&&
+            has_words<typename record_shader<Source, Function, Sink>::result_type>;
+
+/// The requests of a shader that are packed at a time: up to 256, and as many as take, with their
+/// results, at most 16 KiB of the first-level cache.
+template <class Shader>
+inline constexpr std::size_t packed_lanes = std::min(std::size_t{256},
+                                                     16384 /
+                                                         (sizeof(typename Shader::request_type) +
+                                                          sizeof(typename Shader::result_type)) /
+                                                         16 * 16);
+
+/// Brings request i and the place of its result near to this core, where `shader` is a record
+/// shader.
+template <class Shader>
+void prefetch_records(Shader const& shader, request_index i) noexcept {
+  if constexpr (is_record_shader<Shader>) {
+    prefetch<cache::second_level>(shader.source, i);
+    prefetch<cache::second_level>(shader.sink, i);
+  }
+}
+
+/// Runs a shader on the requests `index_of(j)` for j from 0 to `count` - 1, which is at most
+/// `packed_lanes`, and calls `ahead(j)` between loads. A function of its own, so that all shaders
+/// have their lanes in the same place of the stack, and with all that it calls inlined, since a
+/// loop with a call in it stays scalar.
+template <class Shader, class IndexOf, class Ahead>
+DEFERRED_SHADE_FLATTEN void run_packed(Shader const& shader, std::size_t count, IndexOf index_of,
+                                       Ahead ahead) {
+  using request = typename Shader::request_type;
+  using result = typename Shader::result_type;
+  lanes<request, packed_lanes<Shader>> requests;
+  lanes<result, packed_lanes<Shader>> results;
+  std::size_t packed = 0;
+  // Four at a time where they stay in memory; a source that is a function may reuse what it refers
+  // to, and its code would be there five times.
+  using source = decltype(shader.source);
+  if constexpr (std::is_same_v<source, request const*> || std::is_same_v<source, request*>) {
+    auto const at = [&](std::size_t j) -> request const& { return shader.source[index_of(j)]; };
+    for (; packed + 4 <= count; packed += 4) {
+      for (std::size_t j = packed; j < packed + 4; ++j) ahead(j);
+      requests.copy(packed, at(packed), at(packed + 1), at(packed + 2), at(packed + 3));
+    }
+  }
+  for (; packed < count; ++packed) {
+    ahead(packed);
+    requests.copy(packed, detail::load(shader.source, index_of(packed)));
+  }
+  auto const& function = shader.function;
+  for (std::size_t j = 0; j < count; ++j) {
+    request const r = requests.get(j);
+    results.set(j, function(r));
+  }
+  for (std::size_t j = 0; j < count; ++j) detail::store(shader.sink, index_of(j), results.get(j));
+}
+
+/// Runs one shader on the requests `index_of(j)` for j from 0 to `count` - 1, and calls `ahead(j)`
+/// once for each, which may prefetch what comes later.
+template <class Shader, class IndexOf, class Ahead>
+void run_segment(Shader const& shader, std::size_t count, IndexOf index_of, Ahead ahead) {
+  if constexpr (is_packable<Shader>) {
+    for (std::size_t begin = 0; begin < count; begin += packed_lanes<Shader>) {
+      run_packed(
+          shader, std::min(packed_lanes<Shader>, count - begin),
+          [=](std::size_t j) { return index_of(begin + j); },
+          [=](std::size_t j) { ahead(begin + j); });
+    }
+  } else {
+    for (std::size_t j = 0; j < count; ++j) {
+      ahead(j);
+      shader(index_of(j));
+    }
+  }
+}
+
+}  // namespace deferred_shade::detail

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <thrust/binary_search.h>
+#include <thrust/execution_policy.h>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <new>
+
+#include <deferred_shade/detail/cuda/launch.hpp>
+#include <deferred_shade/detail/cuda/staging.hpp>
+#include <deferred_shade/detail/system.hpp>
+#include <deferred_shade/record_shaders.hpp>
+#include <deferred_shade/shader_table.hpp>
+#include <deferred_shade/types.hpp>
+
+namespace deferred_shade::detail {
+
+/// Runs every request through the shader that it names.
+template <class Count, class Ids, class... Shaders>
+__global__ void switch_kernel(Count n, Ids ids,
+                              shader_table<Shaders...> const __grid_constant__ shaders) {
+  begin_after_earlier_kernels();
+  std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
+  auto const i = static_cast<request_index>(p);
+  if (p < size_of(n)) shaders.run(detail::shader_of(ids, i, sizeof...(Shaders)), i);
+}
+
+/// The same for record shaders: all lanes load their requests at a time and store their results at
+/// a time, and only the functions take turns. `one_place`: the shaders' sources are the same, and
+/// so are their sinks; else loads and stores take turns as well.
+template <class Count, class Ids, class... Shaders>
+__global__ void records_kernel(Count n, Ids ids,
+                               shader_table<Shaders...> const __grid_constant__ shaders,
+                               bool one_place) {
+  using request = typename staging<Shaders...>::request;
+  using result = typename staging<Shaders...>::result;
+  begin_after_earlier_kernels();
+  std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
+  if (p >= size_of(n)) return;
+  auto const i = static_cast<request_index>(p);
+  shader_id const id = detail::shader_of(ids, i, sizeof...(Shaders));
+  if (id == sizeof...(Shaders)) return;
+
+  auto const at_place = [&](auto const& f) {
+    if (one_place) {
+      f(shaders.template get<0>());
+    } else {
+      shaders.visit(id, f);
+    }
+  };
+  alignas(request) unsigned char in[sizeof(request)];
+  alignas(result) unsigned char out[sizeof(result)];
+  at_place([&](auto const& shader) { new (in) request(detail::load(shader.source, i)); });
+  shaders.visit(id, [&](auto const& shader) {
+    new (out) result(shader.function(*reinterpret_cast<request const*>(in)));
+  });
+  at_place([&](auto const& shader) {
+    detail::store(shader.sink, i, *reinterpret_cast<result const*>(out));
+  });
+}
+
+/// Runs the requests of a grouping through the shaders of their segments.
+template <class... Shaders>
+__global__ void segments_kernel(request_index const* permutation, request_index const* offsets,
+                                shader_table<Shaders...> const __grid_constant__ shaders) {
+  begin_after_earlier_kernels();
+  std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
+  if (p >= offsets[sizeof...(Shaders)]) return;
+  request_index const* const ends = offsets + 1;
+  auto const id = thrust::upper_bound(thrust::seq, ends, ends + sizeof...(Shaders), p) - ends;
+  shaders.run(static_cast<shader_id>(id), permutation[p]);
+}
+
+inline constexpr std::uint32_t switch_threads = 256;
+
+// The warps of a large block run the same shaders at about the same time, and share their
+// instructions; with few shaders, small blocks make room for the next one sooner.
+template <class... Shaders>
+inline constexpr std::uint32_t index_switch_threads = sizeof...(Shaders) <= 8 ? switch_threads / 2
+                                                                              : switch_threads;
+
+/// Whether the shaders of a table load from one place and store to one.
+template <class... Shaders>
+bool have_one_place(shader_table<Shaders...> const& shaders) {
+  auto const same = [](auto const& a, auto const& b) {
+    return std::memcmp(&a, &b, sizeof(a)) == 0;  // for all their types may lack a comparison
+  };
+  auto const& first = shaders.template get<0>();
+  bool result = true;
+  shaders.for_each([&](auto, auto const& shader) {
+    result = result && same(shader.source, first.source) && same(shader.sink, first.sink);
+  });
+  return result;
+}
+
+template <class Policy, class Count, class Ids, class... Shaders>
+void run_implicit(cuda_system, Policy const& exec, Count n, Ids ids,
+                  shader_table<Shaders...> const& shaders) {
+  std::size_t const maximum = maximum_of(n);
+  if constexpr (staging<Shaders...>::possible) {
+    launch<&records_kernel<Count, Ids, Shaders...>>(
+        "implicit_serialization", stream_of(exec),
+        {blocks_for(maximum, switch_threads), switch_threads}, n, ids, shaders,
+        have_one_place(shaders));
+  } else {
+    constexpr std::uint32_t threads = index_switch_threads<Shaders...>;
+    launch<&switch_kernel<Count, Ids, Shaders...>>("implicit_serialization", stream_of(exec),
+                                                   {blocks_for(maximum, threads), threads}, n, ids,
+                                                   shaders);
+  }
+}
+
+template <class Policy, class... Shaders>
+void run_implicit(cuda_system, Policy const& exec, grouping group,
+                  shader_table<Shaders...> const& shaders) {
+  launch<&segments_kernel<Shaders...>>("implicit_serialization", stream_of(exec),
+                                       {blocks_for(group.maximum, switch_threads), switch_threads},
+                                       group.permutation, group.offsets, shaders);
+}
+
+}  // namespace deferred_shade::detail

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cub/device/device_scan.cuh>
+
+#include <deferred_shade/detail/cuda/bucket_tile.hpp>
+#include <deferred_shade/detail/cuda/launch.hpp>
+#include <deferred_shade/detail/cuda/tile_sort.hpp>
+#include <deferred_shade/types.hpp>
+#include <deferred_shade/workspace.hpp>
+
+// Buckets for a larger table: a thread block owns a tile.
+
+namespace deferred_shade::detail {
+
+/// counts[k * tiles + t] becomes the number of requests of shader k in tile t. A thread takes
+/// neighbouring requests and adds once for each stretch of equal ids.
+template <shader_id Shaders, class Count, class Ids>
+__global__ void __launch_bounds__(bucket_threads)
+    large_bucket_count_kernel(Count n, Ids ids, std::uint32_t* counts) {
+  __shared__ std::uint32_t shared[Shaders + 1];
+  begin_after_earlier_kernels();
+  for (std::uint32_t k = threadIdx.x; k <= Shaders; k += bucket_threads) shared[k] = 0;
+  __syncthreads();
+  std::uint32_t keys[bucket_items];
+  tile_of_block(size_of(n)).load_neighbours_of_thread<Shaders>(ids, keys);
+  std::uint32_t length = 0;
+#pragma unroll
+  for (std::uint32_t item = 0; item < bucket_items; ++item) {
+    ++length;
+    if (item + 1 < bucket_items && keys[item + 1] == keys[item]) continue;
+    atomicAdd(&shared[keys[item]], length);
+    length = 0;
+  }
+  __syncthreads();
+  for (std::uint32_t k = threadIdx.x; k < Shaders; k += bucket_threads) {
+    counts[k * gridDim.x + blockIdx.x] = shared[k];
+  }
+}
+
+/// Puts the requests of every tile to their places: `places[k * tiles + t]` is the one of the first
+/// request of shader k in tile t, and the last element is the number of all that have a shader.
+template <shader_id Shaders, class Count, class Ids>
+__global__ void __launch_bounds__(bucket_threads, 3)
+    large_bucket_place_kernel(Count n, Ids ids, std::uint32_t const* places,
+                              request_index* permutation, request_index* offsets) {
+  using sort = tile_sort<Shaders, bucket_threads, bucket_items>;
+  __shared__ union {
+    typename sort::temporary_storage sorting;
+    std::uint32_t slots[sort::size];  // the sorted tile: the shader above the position
+  } shared;
+  __shared__ std::uint32_t starts[sort::columns];
+  __shared__ std::uint32_t shift[Shaders];  // from places in the tile to places in the batch
+  begin_after_earlier_kernels();
+  tile_of_block const tile(size_of(n));
+  std::uint32_t keys[bucket_items];
+  std::uint32_t ranks[bucket_items];
+  sort::load(ids, tile.first, tile.size, keys);
+  sort::find_places(shared.sorting, keys, ranks, starts);
+  __syncthreads();
+  for (std::uint32_t k = threadIdx.x; k < Shaders; k += bucket_threads) {
+    std::uint32_t const place = places[k * gridDim.x + blockIdx.x];
+    shift[k] = place - starts[k];
+    if (blockIdx.x == 0) offsets[k] = place;
+  }
+  if (blockIdx.x == 0 && threadIdx.x == 0) offsets[Shaders] = places[Shaders * gridDim.x];
+#pragma unroll
+  for (std::uint32_t item = 0; item < bucket_items; ++item) {
+    shared.slots[ranks[item]] = keys[item] << 16 | sort::position(item);
+  }
+  __syncthreads();
+  std::uint32_t const used = starts[Shaders];
+#pragma unroll
+  for (std::uint32_t item = 0; item < bucket_items; ++item) {
+    std::uint32_t const p = item * bucket_threads + threadIdx.x;
+    if (p >= used) break;
+    std::uint32_t const slot = shared.slots[p];
+    permutation[shift[slot >> 16] + p] = tile.first + (slot & 0xffff);
+  }
+}
+
+template <shader_id Shaders, class Count, class Ids, class Workspace>
+grouping large_bucket_grouping(cudaStream_t stream, Count n, Ids ids, Workspace& scratch) {
+  std::size_t const maximum = maximum_of(n);
+  std::size_t const tiles = std::max(std::size_t{1}, (maximum + bucket_tile - 1) / bucket_tile);
+  auto const scan = [&](void* memory, std::size_t& bytes, std::uint32_t* counts) {
+    check_cuda(
+        cub::DeviceScan::ExclusiveSum(memory, bytes, counts, counts,
+                                      static_cast<std::int64_t>(tiles * Shaders + 1), stream),
+        "bucket scan");
+  };
+  forget_earlier_error();
+  std::size_t bytes = 0;
+  scan(nullptr, bytes, nullptr);
+  auto const [permutation, counts, memory, offsets] =
+      scratch.take(elements<request_index>(maximum), elements<std::uint32_t>(tiles * Shaders + 1),
+                   elements<std::byte>(bytes), elements<request_index>(Shaders + 1));
+  launch_shape const shape{tiles, bucket_threads};
+  launch<&large_bucket_count_kernel<Shaders, Count, Ids>>("bucket count", stream, shape, n, ids,
+                                                          counts);
+  scan(memory, bytes, counts);
+  launch<&large_bucket_place_kernel<Shaders, Count, Ids>>("bucket place", stream, shape, n, ids,
+                                                          counts, permutation, offsets);
+  return {permutation, offsets, maximum};
+}
+
+}  // namespace deferred_shade::detail

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cuda_runtime.h>
+#include <thrust/detail/execution_policy.h>
+#include <thrust/system/cuda/detail/util.h>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include <deferred_shade/cuda.hpp>
+#include <deferred_shade/detail/cuda/overlap.hpp>
+#include <deferred_shade/types.hpp>
+
+namespace deferred_shade::detail {
+
+/// The stream that a Thrust policy for CUDA names.
+template <class Policy>
+cudaStream_t stream_of(Policy const& exec) {
+  auto policy = thrust::detail::derived_cast(exec);  // Thrust asks for one that is not const
+  return thrust::cuda_cub::stream(policy);
+}
+
+/// The number of requests, where a kernel reads it. The host cannot see what a device_count points
+/// at, so that it is taken into 0 to its maximum here.
+__device__ inline request_index size_of(request_index n) { return n; }
+template <class Integer>
+__device__ request_index size_of(device_count<Integer> n) {
+  Integer const count = *n.pointer;
+  if constexpr (std::is_signed_v<Integer>) {
+    if (count < 0) return 0;
+  }
+  auto const positive = static_cast<std::make_unsigned_t<Integer>>(count);
+  return static_cast<request_index>(positive < n.maximum ? positive : n.maximum);
+}
+
+/// What a launch asks for. A grid of no blocks is not launched.
+struct launch_shape {
+  std::size_t blocks;
+  std::uint32_t threads;
+  std::size_t shared_bytes = 0;
+  bool prefers_cache = false;  ///< to shared memory, where both come out of one memory
+};
+
+/// The number of the current device.
+inline int current_device() {
+  int device = 0;
+  check_cuda(cudaGetDevice(&device), "looking for a CUDA device");
+  return device;
+}
+
+/// Whether any code of this translation unit was compiled for GPUs on which kernels overlap. (A
+/// kernel that is optimised when it is linked says for which architecture it was linked.)
+constexpr bool is_compiled_for_overlap() {
+#ifdef __CUDA_ARCH_LIST__
+  for (int const architecture : {__CUDA_ARCH_LIST__}) {
+    if (architecture >= 900) return true;
+  }
+#endif
+  return false;
+}
+
+/// Whether `Kernel` may start before the work ahead of it is done: on GPUs that can, where its code
+/// was compiled for them, so that it waits by itself. Asked of CUDA once per thread of the host,
+/// and again where its device changes.
+template <auto Kernel>
+bool may_start_early() {
+  thread_local int known_device = -1;
+  thread_local bool known = false;
+  int const device = current_device();
+  if (device == known_device) return known;
+  int major = 0;
+  check_cuda(cudaDeviceGetAttribute(&major, cudaDevAttrComputeCapabilityMajor, device),
+             "compute capability");
+  cudaFuncAttributes attributes{};
+  check_cuda(cudaFuncGetAttributes(&attributes, Kernel), "looking for a kernel");
+  known = is_compiled_for_overlap() && major >= 9 && attributes.ptxVersion >= 90;
+  known_device = device;
+  return known;
+}
+
+/// Launches `Kernel` on `stream`; throws where CUDA refuses: `what` says which one it was. `Kernel`
+/// waits for the work ahead of it: see overlap.hpp.
+template <auto Kernel, class... Arguments>
+void launch(char const* what, cudaStream_t stream, launch_shape shape,
+            Arguments const&... arguments) {
+  if (shape.blocks == 0) return;
+  if (shape.shared_bytes > 0) {  // with what the kernel has itself, it may be more than the default
+    check_cuda(cudaFuncSetAttribute(Kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                                    static_cast<int>(shape.shared_bytes)),
+               what);
+  }
+  if (shape.prefers_cache) {
+    check_cuda(cudaFuncSetAttribute(Kernel, cudaFuncAttributePreferredSharedMemoryCarveout,
+                                    cudaSharedmemCarveoutMaxL1),
+               what);
+  }
+  cudaLaunchAttribute early{};
+  early.id = cudaLaunchAttributeProgrammaticStreamSerialization;
+  early.val.programmaticStreamSerializationAllowed = 1;
+  cudaLaunchConfig_t config{};
+  config.gridDim = dim3(static_cast<unsigned>(shape.blocks));
+  config.blockDim = dim3(shape.threads);
+  config.dynamicSmemBytes = shape.shared_bytes;
+  config.stream = stream;
+  config.attrs = &early;
+  config.numAttrs = may_start_early<Kernel>() ? 1 : 0;
+  check_cuda(cudaLaunchKernelEx(&config, Kernel, arguments...), what);
+}
+
+/// The blocks of `threads` that hold `n` threads.
+constexpr std::size_t blocks_for(std::size_t n, std::uint32_t threads) {
+  return (n + threads - 1) / threads;
+}
+
+/// The multiprocessors of the current device.
+inline std::size_t multiprocessors() {
+  int count = 0;
+  check_cuda(cudaDeviceGetAttribute(&count, cudaDevAttrMultiProcessorCount, current_device()),
+             "multiprocessor count");
+  return static_cast<std::size_t>(count);
+}
+
+}  // namespace deferred_shade::detail

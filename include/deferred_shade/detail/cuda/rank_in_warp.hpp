@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include <deferred_shade/detail/cuda/warp.hpp>
+#include <deferred_shade/types.hpp>
+
+namespace deferred_shade::detail {
+
+/// The lanes in whose `key` some bit of `mask` is set. (The compiler takes two instructions more
+/// for the same in C++.)
+__device__ inline std::uint32_t lanes_with_bit(std::uint32_t key, std::uint32_t mask) {
+  std::uint32_t lanes;
+  asm volatile(
+      "{\n"
+      "  .reg .pred set;\n"
+      "  .reg .b32 bit;\n"
+      "  and.b32 bit, %1, %2;\n"
+      "  setp.ne.u32 set, bit, 0;\n"
+      "  vote.sync.ballot.b32 %0, set, 0xffffffff;\n"
+      "}"
+      : "=r"(lanes)
+      : "r"(key), "r"(mask));
+  return lanes;
+}
+
+/// The lanes whose key is the number of this lane.
+template <shader_id Shaders>
+__device__ std::uint32_t lanes_with_my_key(std::uint32_t key) {
+  std::uint32_t const lane = threadIdx.x % warp_size;
+  std::uint32_t lanes = all_lanes;
+#pragma unroll
+  for (int bit = 0; bit < bits_for(Shaders); ++bit) {
+    std::uint32_t const mine = (lane & 1U << bit) != 0 ? 0 : all_lanes;
+    lanes &= lanes_with_bit(key, 1U << bit) ^ mine;
+  }
+  return lanes;
+}
+
+/// Ranks the requests of a warp, in `Items` rows of 32, by the shader that they name: ranks[i] is
+/// the number of requests of the same shader before this lane's request in row i. Returns how many
+/// name the shader that this lane looks after, the one with its number. (Those that name none go to
+/// lane `Shaders`, if there is one.)
+template <shader_id Shaders, std::uint32_t Items>
+__device__ std::uint32_t rank_in_warp(std::uint32_t const (&keys)[Items],
+                                      std::uint32_t (&ranks)[Items]) {
+  static_assert(Shaders <= warp_size, "a lane looks after each shader");
+  std::uint32_t const below = (1U << threadIdx.x % warp_size) - 1;
+  std::uint32_t count = 0;
+#pragma unroll
+  for (std::uint32_t row = 0; row < Items; ++row) {
+    // A lane learns which lanes name the shader that it looks after, and then asks the lane that
+    // looks after its own request's shader for the requests before it.
+    int const keeper = static_cast<int>(keys[row]);
+    std::uint32_t const lanes = lanes_with_my_key<Shaders>(keys[row]);
+    std::uint32_t const peers = __shfl_sync(all_lanes, lanes, keeper);
+    std::uint32_t const before = __shfl_sync(all_lanes, count, keeper);
+    ranks[row] = before + static_cast<unsigned>(__popc(peers & below));
+    count += static_cast<unsigned>(__popc(lanes));
+  }
+  return count;
+}
+
+}  // namespace deferred_shade::detail

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cuda_pipeline.h>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include <deferred_shade/detail/cuda/launch.hpp>
+#include <deferred_shade/detail/cuda/staging.hpp>
+#include <deferred_shade/detail/cuda/tile_rows.hpp>
+#include <deferred_shade/detail/cuda/tile_sort.hpp>
+#include <deferred_shade/detail/system.hpp>
+#include <deferred_shade/shader_table.hpp>
+#include <deferred_shade/types.hpp>
+
+namespace deferred_shade::detail {
+
+// A row is full where a shader has many requests in a tile: small tables do with small tiles, more
+// of which are under way at one time, some of them loading, some shading, some storing.
+template <class... Shaders>
+inline constexpr std::uint32_t staged_threads = sizeof...(Shaders) <= 8 ? 128 : 512;
+
+/// One tile of record shaders: requests are loaded into shared memory in the order in which they
+/// lie, shaded in the order of their shaders, and the results, which take the place of the
+/// requests, are stored in the order in which they lie. `one_source`: all shaders have the same
+/// pointer.
+template <std::uint32_t Items, class Count, class Ids, class... Shaders>
+__global__ void __launch_bounds__(staged_threads<Shaders...>)
+    staged_kernel(Count n, Ids ids, shader_table<Shaders...> const __grid_constant__ shaders,
+                  bool one_source) {
+  using records = staging<Shaders...>;
+  using request = typename records::request;
+  using result = typename records::result;
+  using source_type = typename records::source_type;
+  using sink_type = typename records::sink_type;
+  constexpr std::uint32_t threads = staged_threads<Shaders...>;
+  using sort = tile_sort<sizeof...(Shaders), threads, Items>;
+  extern __shared__ uint4 slots[];
+  __shared__ typename sort::temporary_storage temporary;
+  __shared__ std::uint32_t starts[sort::columns];
+  __shared__ tile_rows<sort> rows;
+  __shared__ std::uint16_t order[sort::size];      // the positions of the requests, sorted
+  __shared__ std::uint16_t shader_at[sort::size];  // the shader of the request at a position
+  __shared__ alignas(source_type) unsigned char sources[sizeof...(Shaders)][sizeof(source_type)];
+  __shared__ alignas(sink_type) unsigned char sinks[sizeof...(Shaders)][sizeof(sink_type)];
+  auto const slot = [](std::uint32_t position) {
+    return reinterpret_cast<char*>(slots) + position * records::slot;
+  };
+
+  begin_after_earlier_kernels();
+  std::size_t const tile = std::size_t{blockIdx.x} * sort::size;
+  std::size_t const end = size_of(n);
+  if (tile >= end) return;
+  auto const first = static_cast<request_index>(tile);
+  auto const size = static_cast<std::uint32_t>(min(std::size_t{sort::size}, end - tile));
+
+  if constexpr (records::copies_words) {
+    if (one_source) {
+      auto const* const words =
+          reinterpret_cast<uint4 const*>(shaders.template get<0>().source + first);
+      auto const count = static_cast<std::uint32_t>(size * (records::slot / sizeof(uint4)));
+      for (std::uint32_t w = threadIdx.x; w < count; w += threads) {
+        __pipeline_memcpy_async(&slots[w], &words[w], sizeof(uint4));
+      }
+      __pipeline_commit();
+    }
+  }
+  if (threadIdx.x == 0) {
+    shaders.for_each([&](auto id, auto const& shader) {
+      std::memcpy(sources[decltype(id)::value], &shader.source, sizeof(shader.source));
+      std::memcpy(sinks[decltype(id)::value], &shader.sink, sizeof(shader.sink));
+    });
+  }
+  std::uint32_t keys[Items];
+  std::uint32_t places[Items];
+  sort::load(ids, first, size, keys);
+  sort::find_places(temporary, keys, places, starts);
+  __syncthreads();
+#pragma unroll
+  for (std::uint32_t item = 0; item < Items; ++item) {
+    std::uint32_t const position = sort::position(item);
+    if (sort::has_place(keys[item])) order[places[item]] = static_cast<std::uint16_t>(position);
+    shader_at[position] = static_cast<std::uint16_t>(keys[item]);
+  }
+  rows.find(starts);
+  if (!(records::copies_words && one_source)) {
+    __syncthreads();
+    for (std::uint32_t p = threadIdx.x; p < size; p += threads) {
+      if (shader_at[p] == sizeof...(Shaders)) continue;
+      auto const& source = *reinterpret_cast<source_type const*>(sources[shader_at[p]]);
+      *reinterpret_cast<request*>(slot(p)) = detail::load(source, first + p);
+    }
+  }
+  __pipeline_wait_prior(0);
+  __syncthreads();
+  rows.for_each(starts, [&](shader_id id, std::uint32_t place) {
+    char* const memory = slot(order[place]);
+    request const r = *reinterpret_cast<request const*>(memory);
+    shaders.visit(
+        id, [&](auto const& shader) { *reinterpret_cast<result*>(memory) = shader.function(r); });
+  });
+  __syncthreads();
+  for (std::uint32_t p = threadIdx.x; p < size; p += threads) {
+    if (shader_at[p] == sizeof...(Shaders)) continue;
+    detail::store(*reinterpret_cast<sink_type const*>(sinks[shader_at[p]]), first + p,
+                  *reinterpret_cast<result const*>(slot(p)));
+  }
+}
+
+template <class Policy, class Count, class Ids, class... Shaders>
+void run_staged(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders) {
+  using records = staging<Shaders...>;
+  constexpr auto items = static_cast<std::uint32_t>(std::min<std::size_t>(8, 128 / records::slot));
+  constexpr std::uint32_t threads = staged_threads<Shaders...>;
+  constexpr std::size_t tile = threads * items;
+  bool one_source = records::copies_words;
+  if constexpr (records::copies_words) {
+    shaders.for_each([&](auto, auto const& shader) {
+      one_source = one_source && shader.source == shaders.template get<0>().source;
+    });
+  }
+  launch<&staged_kernel<items, Count, Ids, Shaders...>>(
+      "local_sort_then_dispatch", stream_of(exec),
+      {(maximum_of(n) + tile - 1) / tile, threads, tile * records::slot}, n, ids, shaders,
+      one_source);
+}
+
+}  // namespace deferred_shade::detail

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <type_traits>
+
+#include <deferred_shade/record_shaders.hpp>
+#include <deferred_shade/shader_table.hpp>
+
+namespace deferred_shade::detail {
+
+/// Whether T is the type of an extended lambda. nvcc gives its host compiler another type in its
+/// place, whose traits differ: which kernel there is must not depend on them.
+#ifdef __CUDACC_EXTENDED_LAMBDA__
+template <class T>
+inline constexpr bool is_extended_lambda = __nv_is_extended_device_lambda_closure_type(T) ||
+                                           __nv_is_extended_host_device_lambda_closure_type(T);
+#else
+template <class T>
+inline constexpr bool is_extended_lambda = false;
+#endif
+
+/// What record shaders of one table have in common where their requests can pass through shared
+/// memory: one type of source, of sink and of result, all trivially copyable, and small records.
+template <class... Shaders>
+struct common_records {
+  static constexpr bool possible = false;
+};
+
+template <class Source, class Sink, class... Functions>
+struct common_records<record_shader<Source, Functions, Sink>...> {
+  using source_type = Source;
+  using sink_type = Sink;
+  template <class Function>
+  using shader = record_shader<Source, Function, Sink>;
+  using first_shader = shader<std::tuple_element_t<0, std::tuple<Functions...>>>;
+  using request = typename first_shader::request_type;
+  using result = typename first_shader::result_type;
+
+  /// The bytes of shared memory for a request, and in the same place for its result.
+  static constexpr std::size_t slot = (std::max(sizeof(request), sizeof(result)) + 15) / 16 * 16;
+
+  static constexpr bool possible =
+      !is_extended_lambda<Source> && !is_extended_lambda<Sink> &&
+      sizeof(Source) + sizeof(Sink) <= 256 && std::is_copy_assignable_v<request> &&
+      std::is_copy_assignable_v<result> &&
+      (std::is_same_v<result, typename shader<Functions>::result_type> && ...) &&
+      std::is_trivially_copyable_v<request> && std::is_trivially_copyable_v<result> &&
+      std::is_trivially_copyable_v<Source> && std::is_trivially_copyable_v<Sink> &&
+      alignof(request) <= 16 && alignof(result) <= 16 && slot <= 128;
+
+  /// Whether requests lie in memory as they lie in the slots, so that 16 bytes are copied at a
+  /// time.
+  static constexpr bool copies_words =
+      std::is_pointer_v<Source> && sizeof(request) == slot && alignof(request) == 16;
+};
+
+/// The same of a table, which is small: in a large one, a tile that fits in shared memory has too
+/// few requests of each shader to fill its rows.
+template <bool Small, class... Shaders>
+struct staging_if_small {
+  static constexpr bool possible = false;
+};
+template <class... Shaders>
+struct staging_if_small<true, Shaders...> : common_records<Shaders...> {};
+template <class... Shaders>
+using staging = staging_if_small<sizeof...(Shaders) <= 16, Shaders...>;
+
+}  // namespace deferred_shade::detail

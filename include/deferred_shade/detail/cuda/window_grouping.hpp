@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include <deferred_shade/detail/cuda/launch.hpp>
+#include <deferred_shade/detail/cuda/small_bucket.hpp>
+#include <deferred_shade/detail/cuda/warp.hpp>
+#include <deferred_shade/types.hpp>
+#include <deferred_shade/workspace.hpp>
+
+// Buckets again, but of each window of the batch by itself. Where the requests of a window end up
+// depends on no other window, so that there is no scan: a tile adds up the counts of its window.
+
+namespace deferred_shade::detail {
+
+inline constexpr std::uint32_t window_tiles = 32;
+inline constexpr std::uint32_t window_size = window_tiles * bucket_tile;
+
+/// The requests of a batch, sorted by shader inside each window: a view of memory of a workspace.
+struct window_grouping {
+  std::uint32_t const*
+      sorted;                 ///< the shader in the upper 8 bits, the position in the window below
+  std::uint32_t const* used;  ///< for each window, the requests that name a shader: they come first
+};
+
+/// Where windows are written, by the counts of each tile.
+template <shader_id Shaders>
+struct window_output {
+  std::uint32_t const* counts;
+  std::uint32_t* sorted;
+  std::uint32_t* used;
+
+  struct shared_memory {
+    std::uint32_t totals[bucket_warps][warp_size];
+    std::uint32_t earlier[bucket_warps][warp_size];
+  };
+
+  /// Every warp adds up its share of the window's tiles, by lanes.
+  __device__ void prepare(shared_memory& shared) const {
+    constexpr std::uint32_t share = window_tiles / bucket_warps;
+    std::uint32_t const lane = threadIdx.x % warp_size;
+    std::uint32_t const warp = threadIdx.x / warp_size;
+    std::uint32_t const first = blockIdx.x / window_tiles * window_tiles + warp * share;
+    std::uint32_t total = 0;
+    std::uint32_t earlier = 0;
+#pragma unroll
+    for (std::uint32_t tile = first; tile < first + share; ++tile) {
+      bool const exists = tile < gridDim.x && lane < Shaders;
+      std::uint32_t const count = exists ? counts[std::size_t{tile} * Shaders + lane] : 0;
+      total += count;
+      if (tile < blockIdx.x) earlier += count;
+    }
+    shared.totals[warp][lane] = total;
+    shared.earlier[warp][lane] = earlier;
+  }
+
+  /// Where the requests of this block's tile go that name the shader of this lane.
+  __device__ std::uint32_t place_of_lane(shared_memory const& shared) const {
+    std::uint32_t const lane = threadIdx.x % warp_size;
+    std::uint32_t const window = blockIdx.x / window_tiles;
+    std::uint32_t total = 0;
+    std::uint32_t earlier = 0;
+#pragma unroll
+    for (std::uint32_t w = 0; w < bucket_warps; ++w) {
+      total += shared.totals[w][lane];
+      earlier += shared.earlier[w][lane];
+    }
+    std::uint32_t const begin = exclusive_sum_of_warp(total);
+    if (blockIdx.x % window_tiles == 0 && threadIdx.x == Shaders - 1) used[window] = begin + total;
+    return window * window_size + begin + earlier;
+  }
+
+  __device__ void write(std::uint32_t place, request_index, std::uint32_t slot) const {
+    sorted[place] = slot + blockIdx.x % window_tiles * bucket_tile;
+  }
+};
+
+template <shader_id Shaders, class Count, class Ids, class Workspace>
+window_grouping group_windows(cudaStream_t stream, Count n, Ids ids, Workspace& scratch) {
+  [[maybe_unused]] auto const grouped = scratch.begin_phase({"group"});
+  std::size_t const maximum = maximum_of(n);
+  std::size_t const tiles = blocks_for(maximum, bucket_tile);
+  auto const [sorted, counts, used] =
+      scratch.take(elements<std::uint32_t>(maximum), elements<std::uint32_t>(tiles * Shaders),
+                   elements<std::uint32_t>(blocks_for(maximum, window_size)));
+  using output = window_output<Shaders>;
+  launch_shape const shape{tiles, bucket_threads};
+  launch<&small_bucket_count_kernel<Shaders, Count, Ids>>("window count", stream, shape, n, ids,
+                                                          tile_count_layout{1, Shaders}, counts);
+  launch<&small_bucket_place_kernel<Shaders, Count, Ids, output>>(
+      "window place", stream, shape, n, ids, output{counts, sorted, used});
+  return {sorted, used};
+}
+
+}  // namespace deferred_shade::detail

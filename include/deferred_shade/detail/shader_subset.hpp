@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <thrust/iterator/transform_iterator.h>
+#include <array>
+#include <bitset>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <utility>
+
+#include <deferred_shade/detail/system.hpp>
+#include <deferred_shade/shader_table.hpp>
+#include <deferred_shade/types.hpp>
+#ifdef __CUDACC__
+#include <deferred_shade/detail/renumbered.hpp>
+#endif
+
+namespace deferred_shade::detail {
+
+/// The ids of the shaders that a table has: the first `count` of `ids`; and a bit for each.
+template <class... Shaders>
+struct present_ids {
+  std::array<shader_id, sizeof...(Shaders)> ids{};
+  std::size_t count = 0;
+  std::uint32_t bits = 0;
+
+  constexpr present_ids() {
+    bool const present[] = {!std::is_same_v<Shaders, no_shader>...};
+    for (shader_id id = 0; id < sizeof...(Shaders); ++id) {
+      if (!present[id]) continue;
+      ids[count++] = id;
+      if (id < 32) bits |= std::uint32_t{1} << id;
+    }
+  }
+};
+
+/// The place of an id among those of `Present`; 32 for one that is not there.
+template <std::uint32_t Present>
+struct place_among {
+  template <class Id>
+  DEFERRED_SHADE_HOST_DEVICE shader_id operator()(Id const& value) const {
+    static_assert(is_id<Id>, "a shader id is an integer or an enumeration of at most 32 bits");
+    auto const id = static_cast<shader_id>(value);
+    if (id >= 32 || (Present >> id & 1U) == 0) return 32;
+    std::uint32_t const below = Present & ((std::uint32_t{1} << id) - 1);
+#ifdef __CUDA_ARCH__
+    return static_cast<shader_id>(__popc(below));
+#else
+    return static_cast<shader_id>(std::bitset<32>(below).count());
+#endif
+  }
+};
+
+/// Whether a schedule takes a table with its gaps, because it goes by ids itself.
+template <class Schedule>
+inline constexpr bool takes_gaps = false;
+
+/// The shaders that a table has, in a table without gaps.
+template <class... Shaders, std::size_t... Places>
+auto without_gaps(shader_table<Shaders...> const& shaders, std::index_sequence<Places...>) {
+  constexpr present_ids<Shaders...> present;
+  shader_table dense{shaders.template get<present.ids[Places]>()...};
+  auto const expected = shaders.expected();
+  std::bitset<sizeof...(Places)> expected_here;
+  ((expected_here[Places] = expected[present.ids[Places]]), ...);
+  return dense.expecting(expected_here);
+}
+
+/// Runs a schedule. On a GPU, a table of up to 32 places that has no shader in some of them is one
+/// of fewer shaders, by other ids: nothing is counted, sorted or launched for a shader that is not
+/// there. (On a CPU, where ids are looked at one by one, that costs more than it gains.)
+template <class System, class Schedule, class Policy, class Count, class Ids, class... Shaders,
+          class Workspace>
+void run_schedule(System, Schedule const& schedule, Policy const& exec, Count n, Ids ids,
+                  shader_table<Shaders...> const& shaders, Workspace& scratch) {
+  constexpr present_ids<Shaders...> present;
+  constexpr bool closes_gaps = std::is_same_v<System, cuda_system> && !takes_gaps<Schedule> &&
+                               present.count > 0 && present.count < sizeof...(Shaders) &&
+                               sizeof...(Shaders) <= 32;
+  if constexpr (closes_gaps) {
+    using dense_ids =
+        thrust::transform_iterator<place_among<present.bits>, Ids, shader_id, shader_id>;
+    auto&& seen = renumbered(scratch, present.ids.data());
+    schedule(exec, n, dense_ids(ids, {}),
+             without_gaps(shaders, std::make_index_sequence<present.count>()), seen);
+  } else {
+    schedule(exec, n, ids, shaders, scratch);
+  }
+}
+
+}  // namespace deferred_shade::detail

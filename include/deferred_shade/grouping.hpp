@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <bitset>
+
+#include <deferred_shade/detail/cpu/bucket.hpp>
+#include <deferred_shade/detail/cpu/compact.hpp>
+#include <deferred_shade/detail/cpu/radix_sort.hpp>
+#include <deferred_shade/detail/system.hpp>
+#include <deferred_shade/types.hpp>
+#ifdef __CUDACC__
+#include <deferred_shade/detail/cuda/bucket.hpp>
+#include <deferred_shade/detail/cuda/compact.hpp>
+#include <deferred_shade/detail/cuda/radix_sort.hpp>
+#endif
+
+namespace deferred_shade {
+
+/// Groups requests by one parallel stable counting pass: every block counts its shaders, a scan
+/// over the counts gives each block its place in each segment, and the block puts its requests
+/// there. Reads the ids twice and writes the permutation once.
+///
+/// `ids` is a random-access iterator of `n` ids; `n` is a request_index, or on CUDA a device_count.
+/// The result lives in `scratch` until its next use.
+template <shader_id Shaders, class Policy, class Count, class Ids, class Workspace>
+grouping group_by_bucket(Policy const& exec, Count n, Ids ids, Workspace& scratch) {
+  [[maybe_unused]] auto const grouped = scratch.begin_phase({"group"});
+  return detail::bucket_grouping<Shaders>(detail::system_of<Policy>{}, exec, n, ids, scratch);
+}
+
+/// Groups requests by Thrust's radix sort of (id, index) pairs. The keys are no wider than the
+/// table needs, so that 255 shaders take a single pass over one byte.
+///
+/// Every block is sorted by the worker that owns it, with temporary memory from the workspace; a
+/// scan over the lengths of the runs gives each run its place, and the block copies its runs there.
+/// (Thrust's own parallel sort on a CPU allocates for every call and merges block by block.)
+///
+/// For two-byte keys and blocks of 32768 requests or more, Thrust takes 512 KiB of a worker's
+/// stack.
+///
+/// `ids` is a random-access iterator of `n` ids; `n` is a request_index, or on CUDA a device_count.
+/// The result lives in `scratch` until its next use.
+template <shader_id Shaders, class Policy, class Count, class Ids, class Workspace>
+grouping group_by_radix_sort(Policy const& exec, Count n, Ids ids, Workspace& scratch) {
+  [[maybe_unused]] auto const grouped = scratch.begin_phase({"group"});
+  return detail::radix_grouping<Shaders>(detail::system_of<Policy>{}, exec, n, ids, scratch);
+}
+
+/// Groups requests by one stream compaction per shader, "select, scan, scatter" (Hoberock, Lu, Jia
+/// and Hart, "Stream Compaction for Deferred Shading", HPG 2009, section 4.1): every block counts
+/// the requests of the shader, a scan over the counts gives each block its place, and the block
+/// copies its requests there. Reads the ids twice per shader: the work grows with n * shaders.
+///
+/// `ids` is a random-access iterator of `n` ids; `n` is a request_index, or on CUDA a device_count.
+/// The result lives in `scratch` until its next use. Only the shaders that are `wanted` are
+/// compacted, the segments of others are empty.
+template <shader_id Shaders, class Policy, class Count, class Ids, class Workspace>
+grouping group_by_compaction(Policy const& exec, Count n, Ids ids, Workspace& scratch,
+                             std::bitset<Shaders> const& wanted = std::bitset<Shaders>().set()) {
+  [[maybe_unused]] auto const grouped = scratch.begin_phase({"group"});
+  return detail::compact_grouping<Shaders>(detail::system_of<Policy>{}, exec, n, ids, scratch,
+                                           wanted);
+}
+
+}  // namespace deferred_shade

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <bitset>
+#include <cstddef>
+#include <initializer_list>
+
+#include <deferred_shade/detail/shader_subset.hpp>
+#include <deferred_shade/detail/system.hpp>
+#include <deferred_shade/shader_table.hpp>
+#include <deferred_shade/types.hpp>
+
+namespace deferred_shade {
+namespace detail {
+
+template <class Variant>
+struct variant_traits;
+template <shader_id... Ids>
+struct variant_traits<ids<Ids...>> {
+  static constexpr std::size_t size = sizeof...(Ids);
+
+  template <std::size_t Shaders>
+  static bool covers(std::bitset<Shaders> occurring) {
+    static_assert(((Ids < Shaders) && ...), "a variant lists an id outside the table");
+    for (shader_id const id : {Ids...}) occurring.reset(id);
+    return occurring.none();
+  }
+
+  template <class Table>
+  static auto table(Table const& shaders) {
+    return shaders.template only<Ids...>();
+  }
+};
+
+}  // namespace detail
+
+/// Sets of shaders, each an `ids<...>`, that a renderer wants code for: of a table of dozens, those
+/// that its scenes typically need. Every one is compiled, so that they are declared, not derived.
+template <class... Variants>
+struct variants {
+  static_assert(sizeof...(Variants) > 0, "there is at least one variant");
+
+  /// How many there are; and the number of the one that stands for the whole table.
+  static constexpr std::size_t count = sizeof...(Variants);
+
+  /// The number of the smallest variant that has all shaders of `occurring`, the first among
+  /// equals; `count` where none has.
+  template <std::size_t Shaders>
+  static std::size_t covering(std::bitset<Shaders> const& occurring) {
+    std::size_t best = count, best_size = Shaders + 1, number = 0;
+    auto const consider = [&](bool covers, std::size_t size) {
+      if (covers && size < best_size) {
+        best = number;
+        best_size = size;
+      }
+      ++number;
+    };
+    (consider(detail::variant_traits<Variants>::covers(occurring),
+              detail::variant_traits<Variants>::size),
+     ...);
+    return best;
+  }
+};
+
+namespace detail {
+
+/// Calls `run(table)` with what variant number `chosen` leaves of a table, or with the whole table
+/// where there is none of that number.
+template <class... Variants, class Table, class Function>
+void with_variant(variants<Variants...>, std::size_t chosen, Table const& shaders,
+                  Function const& run) {
+  std::size_t number = 0;
+  bool const ran =
+      ((chosen == number++ && (run(variant_traits<Variants>::table(shaders)), true)) || ...);
+  if (!ran) run(shaders);
+}
+
+}  // namespace detail
+
+/// A schedule for scenes that do not need all shaders of a table: runs `schedule` over the smallest
+/// of some variants that has all shaders that can occur, and over the whole table where none has;
+/// what launches one shader after another launches those that can occur.
+///
+///     using some = deferred_shade::variants<deferred_shade::ids<0, 1>,
+///                                           deferred_shade::ids<0, 1, 4>>;
+///     deferred_shade::specialized const schedule{
+///         deferred_shade::window_sort_then_dispatch{}, some{}, scene.shaders()};
+///
+/// `occurring`, with a bit for each shader of the table, is the renderer's to know, from the
+/// materials of its scene, and to keep true: a request that names another shader may be left alone.
+/// count_occurrences finds it for one batch.
+template <class Schedule, class Variants, std::size_t Shaders>
+struct specialized {
+  Schedule schedule;               ///< what runs
+  Variants sets;                   ///< a variants<...>
+  std::bitset<Shaders> occurring;  ///< the shaders that can occur
+
+  /// The number of the variant that runs; variants::count for the whole table.
+  std::size_t variant() const { return sets.covering(occurring); }
+
+  template <class Policy, class Count, class Ids, class... AllShaders, class Workspace>
+  void operator()(Policy const& exec, Count n, Ids ids, shader_table<AllShaders...> const& shaders,
+                  Workspace& scratch) const {
+    static_assert(sizeof...(AllShaders) == Shaders, "occurring has a bit for each shader");
+    detail::with_variant(sets, variant(), shaders, [&](auto const& table) {
+      detail::run_schedule(detail::system_of<Policy>{}, schedule, exec, n, ids,
+                           table.expecting(occurring), scratch);
+    });
+  }
+};
+
+template <class Schedule, class Variants, std::size_t Shaders>
+specialized(Schedule, Variants, std::bitset<Shaders>) -> specialized<Schedule, Variants, Shaders>;
+
+template <class Schedule, class Variants, std::size_t Shaders>
+inline constexpr bool detail::takes_gaps<specialized<Schedule, Variants, Shaders>> = true;
+
+}  // namespace deferred_shade
