@@ -6,6 +6,7 @@
 
 #include <deferred_shade/config.hpp>
 #include <deferred_shade/shader_table.hpp>
+#include <deferred_shade/shader_traits.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade {
@@ -70,6 +71,10 @@ auto record_shaders(Source source, Sink sink, Functions... functions) {
   return shader_table{
       record_shader<Source, Functions, Sink>{source, std::move(functions), sink}...};
 }
+
+/// A record shader has the traits of its function.
+template <class Source, class Function, class Sink>
+struct shader_traits<record_shader<Source, Function, Sink>> : shader_traits<Function> {};
 
 /// Whether `Shader` is a record_shader.
 template <class Shader>
