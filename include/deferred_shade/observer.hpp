@@ -3,11 +3,42 @@
 
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
 
 namespace deferred_shade {
+namespace detail {
+
+// The tuning of a workspace that carries one: see `tuned`.
+template <class Workspace, class = void>
+struct find_tuning {
+  using type = void;
+};
+template <class Workspace>
+struct find_tuning<Workspace, std::void_t<typename Workspace::tuning_type>> {
+  using type = typename Workspace::tuning_type;
+};
+
+/// What observed, tuned and others have in common: they are the workspace, except in one thing.
+template <class Workspace>
+struct workspace_wrapper {
+  using tuning_type = typename find_tuning<Workspace>::type;
+
+  explicit workspace_wrapper(Workspace& wrapped) : scratch(wrapped) {}
+
+  void reserve(std::size_t n, std::size_t shaders) const { scratch.reserve(n, shaders); }
+  template <class... T>
+  auto take(elements<T>... arrays) const {
+    return scratch.take(arrays...);
+  }
+  auto begin_phase(phase const& p) const { return scratch.begin_phase(p); }
+
+  Workspace& scratch;
+};
+
+}  // namespace detail
 
 /// A workspace whose observer is told what a schedule does, for a profiler or a timeline. It goes
 /// where the workspace would; there, no code is made for it.
@@ -23,17 +54,12 @@ namespace deferred_shade {
 ///     auto const ranges = [](ds::phase const& p) { return nvtx3::scoped_range{p.name}; };
 ///     deferred_shade::observed seen{scratch, ranges};
 ///     deferred_shade::shade(exec, schedule, n, ids, shaders, seen);
-template <class Allocator, class Observer>
-struct observed {
-  workspace<Allocator>& scratch;
+template <class Workspace, class Observer>
+struct observed : detail::workspace_wrapper<Workspace> {
   Observer observer;
 
-  /// The workspace's.
-  void reserve(std::size_t n, std::size_t shaders) const { scratch.reserve(n, shaders); }
-  template <class... T>
-  auto take(elements<T>... arrays) const {
-    return scratch.take(arrays...);
-  }
+  observed(Workspace& scratch, Observer tells)
+      : detail::workspace_wrapper<Workspace>(scratch), observer(std::move(tells)) {}
 
   /// Tells the observer; the phase lasts as long as what is returned.
   auto begin_phase(phase const& p) const {
@@ -41,8 +67,5 @@ struct observed {
     return observer(p);
   }
 };
-
-template <class Allocator, class Observer>
-observed(workspace<Allocator>&, Observer) -> observed<Allocator, Observer>;
 
 }  // namespace deferred_shade

@@ -10,11 +10,9 @@
 #include <utility>
 
 #include <deferred_shade/detail/system.hpp>
+#include <deferred_shade/observer.hpp>
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/types.hpp>
-#ifdef __CUDACC__
-#include <deferred_shade/detail/renumbered.hpp>
-#endif
 
 namespace deferred_shade::detail {
 
@@ -52,6 +50,21 @@ struct place_among {
   }
 };
 
+/// The workspace for a table whose shader k has another id, `ids[k]`, in the renderer's table: that
+/// is the one which an observer is told.
+template <class Workspace>
+struct renumbered : workspace_wrapper<Workspace> {
+  shader_id const* ids;
+
+  renumbered(Workspace& scratch, shader_id const* there)
+      : workspace_wrapper<Workspace>(scratch), ids(there) {}
+
+  auto begin_phase(phase p) const {
+    if (p.shader) p.shader = ids[*p.shader];
+    return this->scratch.begin_phase(p);
+  }
+};
+
 /// Whether a schedule takes a table with its gaps, because it goes by ids itself.
 template <class Schedule>
 inline constexpr bool takes_gaps = false;
@@ -81,7 +94,8 @@ void run_schedule(System, Schedule const& schedule, Policy const& exec, Count n,
   if constexpr (closes_gaps) {
     using dense_ids =
         thrust::transform_iterator<place_among<present.bits>, Ids, shader_id, shader_id>;
-    auto&& seen = renumbered(scratch, present.ids.data());
+    static constexpr present_ids<Shaders...> those;
+    renumbered seen(scratch, those.ids.data());
     schedule(exec, n, dense_ids(ids, {}),
              without_gaps(shaders, std::make_index_sequence<present.count>()), seen);
   } else {
