@@ -116,22 +116,38 @@ TEST_CASE("a workspace refuses sizes that no memory has", "[workspace]") {
 }
 
 TEST_CASE("what a batch takes does not fall when batches or tables grow", "[workspace]") {
-  // The sizes at which the number of blocks would fall: one more request, larger blocks.
   std::mt19937_64 engine(test::run_seed());
   CAPTURE(test::run_seed());
+  using on_host = ds::workspace<>;
+  using anywhere = ds::workspace<ledger_allocator<std::byte>>;
   for (int trial = 0; trial < 20000; ++trial) {
     std::size_t const n = engine() % (std::size_t{1} << (1 + engine() % 32));
     std::size_t const shaders = 1 + engine() % (std::size_t{1} << (1 + engine() % 20));
     std::size_t const fewer = engine() % (n + 1);
     std::size_t const smaller = 1 + engine() % shaders;
-    ds::detail::block_partition const blocks(n, shaders);
-    REQUIRE(blocks.count() <= blocks.max_count(n, shaders));
-    REQUIRE(blocks.max_count(fewer, shaders) <= blocks.max_count(n, shaders));
-    using scratch = ds::workspace<>;
-    REQUIRE(scratch::bytes_for(fewer, smaller) <= scratch::bytes_for(n, shaders));
-    std::size_t const counters = (blocks.max_count(n, shaders) + 1) * (shaders + 1) * 4;
-    std::size_t const key = shaders < 256 ? 1 : shaders < 65536 ? 2 : 4;
-    REQUIRE(scratch::bytes_for(n, shaders) >= counters + n * (2 * key + 12));
+    REQUIRE(on_host::bytes_for(fewer, smaller) <= on_host::bytes_for(n, shaders));
+    REQUIRE(anywhere::bytes_for(fewer, smaller) <= anywhere::bytes_for(n, shaders));
+    REQUIRE(anywhere::bytes_for(n, shaders) >= on_host::bytes_for(n, shaders));
+  }
+}
+
+TEMPLATE_LIST_TEST_CASE("a schedule takes what it says, and not more", "[workspace]",
+                        test::backends) {
+  auto const exec = TestType::policy();
+  for (std::uint32_t const n : {1U, 63U, 16384U, 16385U, 200003U}) {
+    std::uint32_t const seed = test::run_seed();
+    auto const ids =
+        test::on<TestType>(test::make_ids<std::uint16_t>(test::layout::random, n, 40, seed));
+    ds::for_each_schedule([&](char const* name, auto const& schedule) {
+      CAPTURE(name, n, seed);
+      ledger book;
+      ds::workspace scratch{ledger_allocator<std::byte, TestType>(book)};
+      std::size_t const bytes = schedule.workspace_bytes(exec, n, 40);
+      scratch.reserve_bytes(bytes);
+      test::check_against_loop<TestType, 40>(schedule, n, ids.data(), scratch);
+      CHECK(book.allocations == (bytes > 0 ? 1 : 0));
+      CHECK(bytes <= scratch.bytes_for(n, 40));
+    });
   }
 }
 

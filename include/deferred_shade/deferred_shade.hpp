@@ -8,7 +8,9 @@
 #include <deferred_shade/schedule.hpp>
 #include <deferred_shade/shade.hpp>
 #include <deferred_shade/shader_table.hpp>
+#include <deferred_shade/shader_traits.hpp>
 #include <deferred_shade/statistics.hpp>
+#include <deferred_shade/tuning.hpp>
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/version.hpp>
 #include <deferred_shade/workspace.hpp>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
 #include <deferred_shade/detail/cpu/explicit.hpp>
 #include <deferred_shade/detail/cpu/implicit.hpp>
 #include <deferred_shade/detail/system.hpp>
@@ -19,12 +21,18 @@ namespace deferred_shade {
 /// grouping, the second half of its schedules 3 and 5. On CUDA, the loads and stores of record
 /// shaders are taken out of the switch (docs/gpu.md).
 struct implicit_serialization {
+  /// It takes none of a workspace.
+  template <class Policy>
+  static constexpr std::size_t workspace_bytes(Policy const&, std::size_t, std::size_t) {
+    return 0;
+  }
+
   /// The schedule: requests as they come.
   template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
                   Workspace& scratch) const {
     [[maybe_unused]] auto const dispatched = scratch.begin_phase({"dispatch"});
-    detail::run_implicit(detail::system_of<Policy>{}, exec, n, ids, shaders);
+    detail::run_implicit(detail::system_of<Policy>{}, exec, n, ids, shaders, scratch);
   }
 
   /// The dispatch: requests as `group` orders them. `scratch` is there for its observer.
@@ -32,7 +40,7 @@ struct implicit_serialization {
   void operator()(Policy const& exec, grouping group, shader_table<Shaders...> const& shaders,
                   Workspace const& scratch = {}) const {
     [[maybe_unused]] auto const dispatched = scratch.begin_phase({"dispatch"});
-    detail::run_implicit(detail::system_of<Policy>{}, exec, group, shaders);
+    detail::run_implicit(detail::system_of<Policy>{}, exec, group, shaders, scratch);
   }
 };
 
@@ -45,6 +53,12 @@ struct implicit_serialization {
 ///
 ///     struct marble { static constexpr int block_size = 128; /* ... */ };
 struct explicit_serialization {
+  /// It takes none of a workspace.
+  template <class Policy>
+  static constexpr std::size_t workspace_bytes(Policy const&, std::size_t, std::size_t) {
+    return 0;
+  }
+
   /// The schedule: every launch visits all requests and masks those of other shaders.
   template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,

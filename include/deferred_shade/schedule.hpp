@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+
 #include <deferred_shade/detail/cpu/tile.hpp>
+#include <deferred_shade/detail/cuda/workspace_bytes.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/detail/tile_sorts.hpp>
 #include <deferred_shade/dispatch.hpp>
@@ -22,6 +26,12 @@ namespace deferred_shade {
 /// whatever the number of shaders.
 template <class Dispatch = explicit_serialization>
 struct compact_then_dispatch {
+  /// The bytes of workspace that batches of up to `n` requests over up to `shaders` shaders take.
+  template <class Policy>
+  static constexpr std::size_t workspace_bytes(Policy const&, std::size_t n, std::size_t shaders) {
+    return detail::compact_bytes(detail::system_of<Policy>{}, n, shaders);
+  }
+
   template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
                   Workspace& scratch) const {
@@ -35,6 +45,12 @@ struct compact_then_dispatch {
 /// explicit_serialization. Schedules 5 and 6 of Hoberock et al., HPG 2009.
 template <class Dispatch = explicit_serialization>
 struct sort_then_dispatch {
+  /// The bytes of workspace that batches of up to `n` requests over up to `shaders` shaders take.
+  template <class Policy>
+  static constexpr std::size_t workspace_bytes(Policy const&, std::size_t n, std::size_t shaders) {
+    return detail::radix_bytes(detail::system_of<Policy>{}, n, shaders);
+  }
+
   template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
                   Workspace& scratch) const {
@@ -50,6 +66,12 @@ struct sort_then_dispatch {
 /// it reads and writes least.
 template <class Dispatch = explicit_serialization>
 struct bucket_then_dispatch {
+  /// The bytes of workspace that batches of up to `n` requests over up to `shaders` shaders take.
+  template <class Policy>
+  static constexpr std::size_t workspace_bytes(Policy const&, std::size_t n, std::size_t shaders) {
+    return detail::bucket_bytes(detail::system_of<Policy>{}, n, shaders);
+  }
+
   template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
                   Workspace& scratch) const {
@@ -76,11 +98,17 @@ struct bucket_then_dispatch {
 /// requests.
 template <class Sort = counting>
 struct local_sort_then_dispatch {
+  /// It takes none of a workspace.
+  template <class Policy>
+  static constexpr std::size_t workspace_bytes(Policy const&, std::size_t, std::size_t) {
+    return 0;
+  }
+
   template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
                   Workspace& scratch) const {
     [[maybe_unused]] auto const dispatched = scratch.begin_phase({"dispatch"});
-    detail::run_tiles(detail::system_of<Policy>{}, Sort{}, exec, n, ids, shaders);
+    detail::run_tiles(detail::system_of<Policy>{}, Sort{}, exec, n, ids, shaders, scratch);
   }
 };
 
@@ -98,11 +126,17 @@ struct local_sort_then_dispatch {
 /// On CUDA, three launches for up to 32 shaders, of which the last one is the switch; for larger
 /// tables, what bucket_then_dispatch<implicit_serialization> does.
 struct window_sort_then_dispatch {
+  /// The bytes of workspace that batches of up to `n` requests over up to `shaders` shaders take.
+  template <class Policy>
+  static constexpr std::size_t workspace_bytes(Policy const&, std::size_t n, std::size_t shaders) {
+    return detail::window_bytes(detail::system_of<Policy>{}, n, shaders);
+  }
+
   template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
                   Workspace& scratch) const {
     using machine = detail::system_of<Policy>;
-    if constexpr (detail::has_windows(machine{}, sizeof...(Shaders))) {
+    if constexpr (detail::has_windows<Workspace>(machine{}, sizeof...(Shaders))) {
       detail::run_windows(machine{}, exec, n, ids, shaders, scratch);
     } else {
       bucket_then_dispatch<implicit_serialization>{}(exec, n, ids, shaders, scratch);
@@ -110,4 +144,37 @@ struct window_sort_then_dispatch {
   }
 };
 
+/// Calls `f(name, schedule)` with every schedule of the library: a `char const*`, and an object of
+/// its type. For command lines, benchmarks and tests, which then know them all by the same names.
+template <class Function>
+constexpr void for_each_schedule(Function&& f) {
+  f("implicit", implicit_serialization{});
+  f("explicit", explicit_serialization{});
+  f("compact+implicit", compact_then_dispatch<implicit_serialization>{});
+  f("compact+explicit", compact_then_dispatch<explicit_serialization>{});
+  f("sort+implicit", sort_then_dispatch<implicit_serialization>{});
+  f("sort+explicit", sort_then_dispatch<explicit_serialization>{});
+  f("bucket+implicit", bucket_then_dispatch<implicit_serialization>{});
+  f("bucket+explicit", bucket_then_dispatch<explicit_serialization>{});
+  f("local-bitonic", local_sort_then_dispatch<bitonic>{});
+  f("local", local_sort_then_dispatch<counting>{});
+  f("window", window_sort_then_dispatch{});
+}
+
+namespace detail {
+
+/// All of them, for a workspace that serves any.
+struct every_schedule {
+  template <class Machine>
+  static constexpr std::size_t workspace_bytes(Machine const& where, std::size_t n,
+                                               std::size_t shaders) {
+    std::size_t most = 0;
+    for_each_schedule([&](char const*, auto const& schedule) {
+      most = (std::max)(most, schedule.workspace_bytes(where, n, shaders));
+    });
+    return most;
+  }
+};
+
+}  // namespace detail
 }  // namespace deferred_shade

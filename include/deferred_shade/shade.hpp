@@ -7,6 +7,7 @@
 #include <deferred_shade/detail/checked_count.hpp>
 #include <deferred_shade/detail/shader_subset.hpp>
 #include <deferred_shade/detail/system.hpp>
+#include <deferred_shade/schedule.hpp>
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>

@@ -95,6 +95,13 @@ struct specialized {
   Variants sets;                   ///< a variants<...>
   std::bitset<Shaders> occurring;  ///< the shaders that can occur
 
+  /// What the schedule takes.
+  template <class Policy>
+  constexpr std::size_t workspace_bytes(Policy const& exec, std::size_t n,
+                                        std::size_t shaders) const {
+    return schedule.workspace_bytes(exec, n, shaders);
+  }
+
   /// The number of the variant that runs; variants::count for the whole table.
   std::size_t variant() const { return sets.covering(occurring); }
 

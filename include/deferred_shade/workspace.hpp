@@ -13,7 +13,6 @@
 #include <type_traits>
 #include <utility>
 
-#include <deferred_shade/detail/cpu/block_partition.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/types.hpp>
 #ifdef __CUDACC__
@@ -21,6 +20,30 @@
 #endif
 
 namespace deferred_shade {
+namespace detail {
+
+struct every_schedule;  // schedule.hpp
+
+template <class T, class = void>
+inline constexpr bool is_complete = false;
+template <class T>
+inline constexpr bool is_complete<T, std::void_t<decltype(sizeof(T))>> = true;
+
+// Memory of std::allocator is none of a GPU; memory of others may be.
+template <class Allocator>
+inline constexpr bool is_for_hosts_alone = false;
+template <class T>
+inline constexpr bool is_for_hosts_alone<std::allocator<T>> = true;
+
+inline constexpr std::size_t workspace_alignment = 128;
+
+/// What an array takes of a workspace.
+template <class T>
+constexpr std::size_t array_bytes(std::size_t count) noexcept {
+  return (count * sizeof(T) + workspace_alignment - 1) / workspace_alignment * workspace_alignment;
+}
+
+}  // namespace detail
 
 /// A request to a workspace for an array of `count` elements of a trivial type. Throws
 /// std::length_error where that is more than a sixteenth of the address space.
@@ -28,7 +51,7 @@ template <class T>
 struct elements {
   static_assert(std::is_trivial_v<T>,
                 "a workspace holds trivial types, which it leaves uninitialised");
-  static_assert(alignof(T) <= 128, "a workspace aligns to 128 bytes");
+  static_assert(alignof(T) <= detail::workspace_alignment, "a workspace aligns to 128 bytes");
   explicit elements(std::size_t n) : count(n) {
     if (n > static_cast<std::size_t>(-1) / 16 / sizeof(T)) {
       throw std::length_error("deferred_shade::elements: an array of " + std::to_string(n) +
@@ -82,32 +105,33 @@ class workspace {
 
   /// Grows to what any schedule of the library takes for batches of up to `n` requests over tables
   /// of up to `shaders` shaders. Throws std::length_error where no batch has so many, and what the
-  /// allocator throws.
+  /// allocator throws. Needs schedule.hpp.
+  template <class Schedules = detail::every_schedule>
   void reserve(std::size_t n, std::size_t shaders) {
     if (n > max_requests || shaders > max_requests) {
       throw std::length_error("deferred_shade::workspace::reserve: n is " + std::to_string(n) +
                               " and shaders is " + std::to_string(shaders) + ", at most " +
                               std::to_string(max_requests) + " are possible");
     }
-    grow(bytes_for(n, shaders));
+    reserve_bytes(bytes_for<Schedules>(n, shaders));
   }
 
-  /// The bytes that `reserve(n, shaders)` makes sure of: what `sort_then_dispatch` takes, since no
-  /// other schedule takes more. With fewer than 256 shaders it is about 14 bytes per request, and
-  /// 3 MiB besides where the memory may be a GPU's.
+  /// Grows to `bytes`, what a schedule says that it takes: `schedule.workspace_bytes(exec, n,
+  /// shaders)`. Throws what the allocator throws.
+  void reserve_bytes(std::size_t bytes) { grow(bytes); }
+
+  /// The bytes that `reserve(n, shaders)` makes sure of: the most that a schedule says it takes, on
+  /// every machine that the memory may be for. Needs schedule.hpp.
+  template <class Schedules = detail::every_schedule>
   static constexpr std::size_t bytes_for(std::size_t n, std::size_t shaders) noexcept {
-    std::size_t const key = shaders <= 0xff ? 1 : shaders <= 0xffff ? 2 : 4;
-    std::size_t const per_request = 2 * (key + sizeof(request_index)) + sizeof(request_index);
-    // Before compute capability 9.0, CUB sorts narrow keys with tables that depend on the GPU
-    // alone. Memory of std::allocator is none of a GPU.
-    using standard = std::allocator<typename Allocator::value_type>;
-    constexpr std::size_t for_device = std::is_same_v<Allocator, standard> ? 0 : 3 << 20;
-    // Larger tables have fewer blocks: their counters are at most n / 16 and one row, nearly.
-    std::size_t const few = std::min(shaders, std::size_t{1023});
-    std::size_t const counters = (detail::block_partition::max_count(n, 0) + 1) * (few + 2) +
-                                 (shaders > few ? n / 16 + 2 * shaders + 4 : 0);
-    return (n + sizeof(line)) * per_request + counters * sizeof(request_index) + 6 * sizeof(line) +
-           for_device;
+    static_assert(detail::is_complete<Schedules>,
+                  "include <deferred_shade/schedule.hpp>, which knows what schedules take");
+    std::size_t const on_host = Schedules::workspace_bytes(detail::host_system{}, n, shaders);
+    if constexpr (detail::is_for_hosts_alone<Allocator>) {
+      return on_host;
+    } else {
+      return (std::max)(on_host, Schedules::workspace_bytes(detail::cuda_system{}, n, shaders));
+    }
   }
 
   /// The bytes held.
@@ -121,7 +145,7 @@ class workspace {
   ///     auto const [keys, offsets] = scratch.take(elements<std::uint8_t>(n), elements<int>(m));
   template <class... T>
   std::tuple<T*...> take(elements<T>... arrays) {
-    grow((bytes(arrays) + ... + 0));
+    grow((detail::array_bytes<T>(arrays.count) + ... + 0));
     std::size_t used = 0;
     return {place(arrays, used)...};  // braces: from left to right
   }
@@ -138,14 +162,9 @@ class workspace {
 
  private:
   template <class T>
-  static constexpr std::size_t bytes(elements<T> array) noexcept {
-    return (array.count * sizeof(T) + sizeof(line) - 1) / sizeof(line) * sizeof(line);
-  }
-
-  template <class T>
   T* place(elements<T> array, std::size_t& used) noexcept {
     auto* const first = reinterpret_cast<std::byte*>(thrust::raw_pointer_cast(data_)) + used;
-    used += bytes(array);
+    used += detail::array_bytes<T>(array.count);
     return reinterpret_cast<T*>(first);
   }
 
