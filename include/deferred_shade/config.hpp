@@ -16,6 +16,13 @@
 #define DEFERRED_SHADE_EXEC_CHECK_DISABLE
 #endif
 
+/// Goes before a function that is never inlined, for what it takes of the stack to be its own.
+#if defined(__GNUC__)
+#define DEFERRED_SHADE_NOINLINE __attribute__((noinline))
+#else
+#define DEFERRED_SHADE_NOINLINE
+#endif
+
 /// Whether the compiler of this code for the host has GNU's builtins, attributes and vectors: g++
 /// from 12 on, whose builtins shuffle vectors, and clang.
 #if defined(__GNUC__) && (defined(__clang__) || __GNUC__ >= 12) && !defined(__CUDACC__)

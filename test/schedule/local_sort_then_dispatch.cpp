@@ -27,7 +27,7 @@ TEST_CASE("local_sort_then_dispatch keeps the order within a shader", "[schedule
 
 TEST_CASE("local_sort_then_dispatch finishes a tile before it begins the next", "[schedule]") {
   // On one worker, the order of execution is: tile by tile, and inside a tile shader by shader.
-  constexpr test::ds::request_index tile = test::ds::counting::tile;
+  constexpr test::ds::request_index tile = test::ds::cpu_tuning::tile;
   std::uint32_t const n = 2 * tile + 100;
   auto const ids = test::make_ids<std::uint8_t>(test::layout::random, n, 2, test::run_seed());
   std::vector<std::uint32_t> order;

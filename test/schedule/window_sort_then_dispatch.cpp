@@ -24,7 +24,7 @@ TEST_CASE("window_sort_then_dispatch keeps the order within a shader", "[schedul
 
 TEST_CASE("window_sort_then_dispatch finishes a window before it begins the next", "[schedule]") {
   // On one worker: window by window, and inside a window shader by shader.
-  constexpr std::uint32_t window = test::ds::counting::tile;
+  constexpr std::uint32_t window = test::ds::cpu_tuning::tile;
   std::uint32_t const n = 2 * window + 100;
   auto const ids = test::make_ids<std::uint8_t>(test::layout::random, n, 2, test::run_seed());
   std::vector<std::uint32_t> order;

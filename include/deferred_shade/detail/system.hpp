@@ -2,12 +2,17 @@
 #pragma once
 
 #include <thrust/system/cpp/execution_policy.h>
+#include <type_traits>
 #include <utility>
 #ifdef __CUDACC__
 #include <thrust/system/cuda/execution_policy.h>
 #endif
 
 namespace deferred_shade::detail {
+
+// A program may wrap Thrust and CUB in a namespace of its own (THRUST_CUB_WRAPPED_NAMESPACE). What
+// the library calls thrust and cub are these.
+namespace thrust = THRUST_NS_QUALIFIER;
 
 /// Where an execution policy runs: what a tuned version of an algorithm is chosen by.
 struct host_system {};
@@ -20,10 +25,12 @@ host_system find_system(thrust::system::detail::sequential::execution_policy<Pol
 template <class Policy>
 cuda_system find_system(thrust::system::cuda::execution_policy<Policy> const&);
 #endif
+host_system find_system(host_system);
+cuda_system find_system(cuda_system);
 void find_system(...);
 
-/// host_system, cuda_system where a CUDA compiler is at work, or void.
+/// host_system, cuda_system where a CUDA compiler is at work, or void. Each of the two is its own.
 template <class Policy>
-using system_of = decltype(find_system(std::declval<Policy const&>()));
+using system_of = decltype(detail::find_system(std::declval<Policy const&>()));
 
 }  // namespace deferred_shade::detail

@@ -9,10 +9,7 @@
 namespace deferred_shade {
 
 /// Sorts a tile with a stable counting sort: see local_sort_then_dispatch.
-struct counting {
-  /// Requests in a tile. Their indices and ids fit in the first- and second-level cache of a core.
-  static constexpr request_index tile = 8192;
-};
+struct counting {};
 
 /// Sorts a tile with a bitonic sorting network: see local_sort_then_dispatch.
 struct bitonic {

@@ -63,3 +63,20 @@ TEST_CASE("scan_columns orders by column, then by block", "[blocks]") {
   CHECK(counts == expected);
   CHECK(offsets == expected_offsets);
 }
+
+TEST_CASE("bounds of blocks and counters do not fall when batches or tables grow", "[blocks]") {
+  // Also at the sizes at which the number of blocks falls: one more request, larger blocks.
+  std::mt19937_64 engine(test::run_seed());
+  CAPTURE(test::run_seed());
+  for (int trial = 0; trial < 20000; ++trial) {
+    std::size_t const n = engine() % (std::size_t{1} << (1 + engine() % 32));
+    std::size_t const shaders = 1 + engine() % (std::size_t{1} << (1 + engine() % 20));
+    std::size_t const fewer = engine() % (n + 1);
+    std::size_t const smaller = 1 + engine() % shaders;
+    block_partition const blocks(n, shaders);
+    REQUIRE(blocks.count() <= blocks.max_count(n, shaders));
+    REQUIRE(blocks.max_count(fewer, shaders) <= blocks.max_count(n, shaders));
+    REQUIRE(blocks.max_count(n, shaders) * (shaders + 1) <= blocks.max_counters(n, shaders));
+    REQUIRE(blocks.max_counters(fewer, smaller) <= blocks.max_counters(n, shaders));
+  }
+}

@@ -19,6 +19,10 @@ constexpr std::size_t capacity = 8192;
 constexpr std::uint32_t sizes[] = {0,  1,  7,  8,    9,    15,   16,   17,   31,   32,
                                    33, 63, 64, 1000, 4095, 4096, 4097, 8159, 8191, 8192};
 
+template <std::uint32_t Shaders, ds::request_index Parts>
+using counts_of =
+    ds::detail::key_counts<Shaders, Parts, ds::detail::compared_bytes<Shaders, ds::cpu_tuning>>;
+
 template <std::uint32_t Shaders, ds::detail::cache Ahead, class Number>
 void check_places(std::vector<ds::detail::sort_key<Shaders>> const& keys, Number first) {
   std::vector<std::vector<Number>> of_key(Shaders + 1);
@@ -45,7 +49,7 @@ void check_places(std::vector<ds::detail::sort_key<Shaders>> const& keys, Number
     ds::detail::place_by_keys<Ahead>(keys.data(), size, first, here, places);
   });
   check([&](std::uint32_t* here, Number* places) {
-    ds::detail::key_counts<Shaders> counts;
+    counts_of<Shaders, ds::cpu_tuning::counted_parts(Shaders)> counts;
     counts.add(keys.data(), size);
     counts.place(keys.data(), size, first, here, places);
   });
@@ -61,10 +65,10 @@ void check_table() {
       ds::detail::sort_key<Shaders> loaded[capacity];
       ds::detail::load_keys<Shaders>(ids.data(), 3, size, loaded);
       std::vector<ds::detail::sort_key<Shaders>> const keys(loaded, loaded + size);
-      ds::detail::key_counts<Shaders> counts;
+      counts_of<Shaders, ds::cpu_tuning::counted_parts(Shaders)> counts;
       counts.add(keys.data(), size);
       counts.add(keys.data(), size / 2);
-      ds::detail::key_counts<Shaders, 1> at_once;
+      counts_of<Shaders, 1> at_once;
       at_once.add(keys.data(), size);
       bool right = true;
       for (std::uint32_t i = 0; i < size; ++i) right &= keys[i] == std::min(ids[i + 3], Shaders);

@@ -16,7 +16,7 @@ TEST_CASE("a tile is sorted stably, whatever its size", "[grouping]") {
       CAPTURE(size, static_cast<int>(how), seed);
       std::uint32_t const first = 1000;
       auto const ids = test::make_ids<std::uint8_t>(how, first + size, 7, seed);
-      test::ds::detail::counting_sort(ids.data(), first, size, *result);
+      test::ds::detail::counting_sort<test::ds::cpu_tuning>(ids.data(), first, size, *result);
       std::vector<std::uint32_t> expected;
       for (std::uint32_t id = 0; id < 7; ++id) {
         REQUIRE(result->offsets[id] == expected.size());

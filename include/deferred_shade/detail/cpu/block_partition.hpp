@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <thrust/for_each.h>
-#include <thrust/iterator/counting_iterator.h>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+
+#include <deferred_shade/detail/cpu/parallel_for.hpp>
+#include <deferred_shade/detail/cpu/tuning.hpp>
 
 namespace deferred_shade::detail {
 
@@ -15,20 +16,30 @@ static_assert(sizeof(std::size_t) >= 8, "sizes of batches are computed in 64 bit
 /// A batch of n requests cut into blocks of equal size, the last one excepted; one worker owns a
 /// block at a time.
 ///
-/// Blocks are large enough that a row of counters per block, `shaders` + 1 of them, is at most a
-/// sixteenth as many as the requests that it counts, and there are never more than 1024 of them.
-/// Their size is a multiple of `granule`; of 64, so that blocks of one array share no cache line.
+/// A row of counters per block, `shaders` + 1 of them, is at most a sixteenth as many as the
+/// requests that it counts, and there are never more than 1024 blocks. Their size is a multiple of
+/// `granule`: with 64, blocks of one array share no cache line.
 class block_partition {
  public:
   constexpr block_partition(std::size_t n, std::size_t shaders, std::size_t granule = 64) noexcept
       : n_(n),
-        size_(multiple_of(granule, std::max(least_size(shaders), (n + 1023) / 1024))),
+        size_(multiple_of(granule,
+                          std::max(least_size(shaders), (n + most_blocks - 1) / most_blocks))),
         count_((n + size_ - 1) / size_) {}
 
   /// A bound of count(), for any granule, that does not fall when n grows: what to allocate for.
   static constexpr std::size_t max_count(std::size_t n, std::size_t shaders) noexcept {
     std::size_t const least = least_size(shaders);
-    return std::min(std::size_t{1024}, (n + least - 1) / least);
+    return std::min(most_blocks, (n + least - 1) / least);
+  }
+
+  /// A bound of max_count(n, s) * (s + 1), and of one row more, for any s up to `shaders`. Tables
+  /// of more than 1023 shaders have larger blocks: their counters are at most n / 16 and one row,
+  /// nearly.
+  static constexpr std::size_t max_counters(std::size_t n, std::size_t shaders) noexcept {
+    std::size_t const few = std::min(shaders, least_block / requests_per_counter - 1);
+    return (max_count(n, 0) + 1) * (few + 2) +
+           (shaders > few ? n / requests_per_counter + 2 * shaders + 4 : 0);
   }
 
   constexpr std::size_t size() const noexcept { return size_; }
@@ -43,7 +54,7 @@ class block_partition {
     return (x + granule - 1) / granule * granule;
   }
   static constexpr std::size_t least_size(std::size_t shaders) noexcept {
-    return multiple_of(64, std::max(std::size_t{16384}, 16 * (shaders + 1)));
+    return multiple_of(64, std::max(least_block, requests_per_counter * (shaders + 1)));
   }
 
   std::size_t n_;
@@ -54,7 +65,7 @@ class block_partition {
 /// Calls `f(block)` for every block, spread over the workers of `exec`.
 template <class Policy, class Function>
 void for_each_block(Policy const& exec, block_partition const& blocks, Function f) {
-  thrust::for_each_n(exec, thrust::counting_iterator<std::uint32_t>(0), blocks.count(), f);
+  detail::parallel_for(exec, blocks.count(), f);
 }
 
 /// Turns counts into places: `counts[b * columns + k]`, the number of elements of column k in

@@ -7,6 +7,7 @@
 
 #include <deferred_shade/detail/cpu/block_partition.hpp>
 #include <deferred_shade/detail/cpu/counting_sort.hpp>
+#include <deferred_shade/detail/cpu/tuning.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
@@ -26,13 +27,38 @@ void for_each_chunk(Ids const& ids, std::size_t begin, std::size_t end, Function
   }
 }
 
-// `Parts` depends on the instructions that a translation unit is compiled for. It is a part of the
-// function's name, so that the linker takes no piece of it from another one.
-template <shader_id Shaders,
-          request_index Parts = are_compared<Shaders> ? 1 : parts_in_turn<Shaders>, class Policy,
-          class Ids, class Workspace>
+constexpr std::size_t bucket_bytes(host_system, std::size_t n, std::size_t shaders) {
+  return array_bytes<request_index>(n) +
+         array_bytes<std::uint32_t>(block_partition::max_counters(n, shaders)) +
+         array_bytes<request_index>(shaders + 1);
+}
+
+/// Counts the keys of the requests from `begin` to `end`. A large table is counted where the counts
+/// go: a worker's stack may be small.
+template <shader_id Shaders, request_index Parts, std::size_t VectorBytes, class Ids>
+void count_block(Ids const& ids, std::size_t begin, std::size_t end, std::uint32_t* counts) {
+  if constexpr (Parts == 1 && VectorBytes == 0) {
+    std::fill_n(counts, Shaders + 1, 0U);
+    for_each_chunk<Shaders, place_chunk>(ids, begin, end,
+                                         [&](auto const* keys, request_index, request_index size) {
+                                           for (request_index i = 0; i < size; ++i)
+                                             ++counts[keys[i]];
+                                         });
+  } else {
+    key_counts<Shaders, Parts, VectorBytes> of_block;
+    for_each_chunk<Shaders, VectorBytes != 0 ? compared_chunk : place_chunk>(
+        ids, begin, end,
+        [&](auto const* keys, request_index, request_index size) { of_block.add(keys, size); });
+    for (shader_id k = 0; k <= Shaders; ++k) counts[k] = of_block.of(k);
+  }
+}
+
+template <shader_id Shaders, class Policy, class Ids, class Workspace>
 grouping bucket_grouping(host_system, Policy const& exec, request_index n, Ids ids,
                          Workspace& scratch) {
+  using tuning = cpu_tuning_of<Workspace>;
+  constexpr std::size_t compared = compared_bytes<Shaders, tuning>;
+  constexpr request_index parts = compared != 0 ? 1 : tuning::counted_parts(Shaders);
   block_partition const blocks(n, Shaders);
   constexpr shader_id columns = Shaders + 1;
   auto const [permutation, counts, offsets] = scratch.take(
@@ -40,22 +66,17 @@ grouping bucket_grouping(host_system, Policy const& exec, request_index n, Ids i
       elements<request_index>(columns));
 
   for_each_block(exec, blocks, [=, counts = counts](std::size_t b) {
-    key_counts<Shaders, Parts> of_block;
-    for_each_chunk<Shaders, are_compared<Shaders> ? 4096 : 512>(
-        ids, blocks.begin(b), blocks.end(b),
-        [&](auto const* keys, request_index, request_index size) { of_block.add(keys, size); });
-    for (shader_id k = 0; k < columns; ++k) counts[b * columns + k] = of_block.of(k);
+    count_block<Shaders, parts, compared>(ids, blocks.begin(b), blocks.end(b),
+                                          counts + b * columns);
   });
   scan_columns(blocks, columns, counts, offsets);
-  // The first-level cache has room for what lies ahead of so many shaders.
-  constexpr cache ahead = Shaders <= 64 ? cache::first_level : cache::second_level;
   for_each_block(exec, blocks, [=, counts = counts, permutation = permutation](std::size_t b) {
-    // Few keys at a time: the first-level cache is for the lines that are written.
-    for_each_chunk<Shaders, 512>(ids, blocks.begin(b), blocks.end(b),
-                                 [&](auto const* keys, request_index first, request_index size) {
-                                   place_by_keys<ahead>(keys, size, first, counts + b * columns,
-                                                        permutation);
-                                 });
+    for_each_chunk<Shaders, place_chunk>(
+        ids, blocks.begin(b), blocks.end(b),
+        [&](auto const* keys, request_index first, request_index size) {
+          place_by_keys<tuning::ahead_of_places(Shaders)>(keys, size, first, counts + b * columns,
+                                                          permutation);
+        });
   });
   return {permutation, offsets, n};
 }

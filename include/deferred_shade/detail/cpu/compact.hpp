@@ -17,6 +17,12 @@
 
 namespace deferred_shade::detail {
 
+constexpr std::size_t compact_bytes(host_system, std::size_t n, std::size_t shaders) {
+  return array_bytes<request_index>(n) +
+         array_bytes<std::uint32_t>(block_partition::max_count(n, 0) + 1) +
+         array_bytes<request_index>(shaders + 1);
+}
+
 template <shader_id Shaders, class Policy, class Ids, class Workspace>
 grouping compact_grouping(host_system, Policy const& exec, request_index n, Ids ids,
                           Workspace& scratch, std::bitset<Shaders> const& wanted) {

@@ -25,11 +25,10 @@ Ids ids_from(Ids const& ids, request_index first) {
 }
 
 /// Loads the shaders of the first `size` requests: `Shaders` for those that name none.
-template <shader_id Shaders, class Ids>
-void load_keys(Ids const& ids, std::size_t size, sort_key<Shaders>* __restrict keys) {
+template <shader_id Shaders, class Ids, class Key>
+void load_keys(Ids const& ids, std::size_t size, Key* __restrict keys) {
   for (std::size_t i = 0; i < size; ++i) {
-    keys[i] = static_cast<sort_key<Shaders>>(
-        detail::shader_of(ids, static_cast<request_index>(i), Shaders));
+    keys[i] = static_cast<Key>(detail::shader_of(ids, static_cast<request_index>(i), Shaders));
   }
 }
 
@@ -45,37 +44,40 @@ void load_keys(Ids const& ids, request_index first, request_index size,
 }
 
 #if DEFERRED_SHADE_HAS_GNU
-// No wider than the instructions are: g++ takes wider ones apart byte by byte.
-#ifdef __AVX2__
-using byte_vector = std::uint8_t __attribute__((vector_size(32)));
-#else
-using byte_vector = std::uint8_t __attribute__((vector_size(16)));
-#endif
-#else
-using byte_vector = std::uint8_t;
+template <std::size_t Bytes>
+struct byte_vector_of;
+template <>
+struct byte_vector_of<16> {
+  using type = std::uint8_t __attribute__((vector_size(16)));
+};
+template <>
+struct byte_vector_of<32> {
+  using type = std::uint8_t __attribute__((vector_size(32)));
+};
 #endif
 
-/// Whether keys are counted by comparing vectors of them with every shader in turn: for few shaders
-/// less work than to look at the keys one by one.
-template <shader_id Shaders>
-inline constexpr bool are_compared = DEFERRED_SHADE_HAS_GNU&& Shaders <= sizeof(byte_vector);
-
-/// The parts of a sequence that are counted in turn. Neighbours often are the same, and the one
-/// increment waits for the other; but the counters are to stay in the first-level cache.
-template <shader_id Shaders>
-inline constexpr request_index parts_in_turn = Shaders < 512 ? 8 : 1;
+/// The bytes of the vectors in which the keys of a table are compared; 0 if each is looked at.
+template <shader_id Shaders, class Tuning>
+inline constexpr std::size_t compared_bytes = vector_bytes != 0 &&
+                                                      Tuning::compares_keys(Shaders, vector_bytes)
+                                                  ? vector_bytes
+                                                  : 0;
 
 /// How often each of the keys 0 to `Shaders` occurs in each part of a sequence: in `Parts` parts of
-/// equal length, and what is left over is the last one's.
-template <shader_id Shaders, request_index Parts = parts_in_turn<Shaders>>
+/// equal length, and what is left over is the last one's. `VectorBytes`: see compared_bytes. It
+/// depends on the instructions that a translation unit is compiled for. So it is a part of the
+/// name, and the linker takes no function from another unit.
+template <shader_id Shaders, request_index Parts, std::size_t VectorBytes>
 class key_counts {
+  static constexpr bool compares = VectorBytes != 0;
+  static_assert(!compares || Shaders <= 0xff, "keys that are compared have one byte");
   using key = sort_key<Shaders>;
 
  public:
   void add(key const* keys, request_index size) {
     request_index compared = 0;
 #if DEFERRED_SHADE_HAS_GNU
-    if constexpr (are_compared<Shaders>) {
+    if constexpr (compares) {
       request_index const length = size / Parts;
       for (request_index p = 0; p < Parts; ++p) {
         compared = add_vectors(keys + p * length, length, of_part_[p]);
@@ -121,11 +123,13 @@ class key_counts {
   // Subtracts the answers, which are -1 where a key is that of the shader. Returns how many keys it
   // has counted. Where the inner loop is not unrolled, g++ keeps the counts in memory.
   static request_index add_vectors(key const* keys, request_index size, std::uint32_t* counts_of) {
-    constexpr std::uint32_t width = sizeof(byte_vector), together = 4;  // shaders to a load of keys
+    using byte_vector = typename byte_vector_of<VectorBytes>::type;
+    constexpr std::uint32_t width = VectorBytes;
+    constexpr std::uint32_t together = 4;  // shaders to a load of keys
     request_index i = 0;
     while (size - i >= width) {
       request_index const rows = std::min((size - i) / width, request_index{255});
-      counts_of[Shaders] += rows * width;  // less those that are a shader's
+      std::uint32_t named = 0;
       for (shader_id k = 0; k < Shaders; k += together) {
         byte_vector counts[together] = {};
         for (request_index row = 0; row < rows; ++row) {
@@ -140,9 +144,10 @@ class key_counts {
           std::uint32_t sum = 0;
           for (request_index lane = 0; lane < width; ++lane) sum += counts[j][lane];
           counts_of[k + j] += sum;
-          counts_of[Shaders] -= sum;
+          named += sum;
         }
       }
+      counts_of[Shaders] += rows * width - named;
       i += rows * width;
     }
     return i;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <thrust/for_each.h>
-#include <thrust/iterator/counting_iterator.h>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
+#include <deferred_shade/detail/cpu/parallel_for.hpp>
 #include <deferred_shade/detail/cpu/segment.hpp>
+#include <deferred_shade/detail/cpu/tuning.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/types.hpp>
@@ -23,11 +23,27 @@ void run_explicit(host_system, Policy const& exec, request_index n, Ids ids,
   shaders.for_each([&](auto id, auto const& shader) {
     if (!expected[id]) return;
     [[maybe_unused]] auto const running = scratch.begin_phase({"shader", id});
-    thrust::for_each_n(exec, thrust::counting_iterator<request_index>(0), std::size_t{n},
-                       [ids, &shader](request_index i) {
-                         if (detail::shader_of(ids, i, sizeof...(Shaders)) == decltype(id)::value)
-                           shader(i);
-                       });
+    detail::for_each_request(exec, n, [ids, &shader](request_index i) {
+      if (detail::shader_of(ids, i, sizeof...(Shaders)) == decltype(id)::value) shader(i);
+    });
+  });
+}
+
+/// Runs a record shader on the `size` requests of its segment, packed.
+template <class Policy, class Shader>
+void run_in_chunks(Policy const& exec, Shader const& shader, request_index const* segment,
+                   std::size_t size) {
+  std::size_t const chunk = size < small_segment ? small_chunk : packed_lanes<Shader>;
+  detail::parallel_for(exec, (size + chunk - 1) / chunk, [=, &shader](std::size_t c) {
+    std::size_t const from = c * chunk;
+    std::size_t const count = (std::min)(chunk, size - from);
+    // What comes next is prefetched: the next chunk, mostly the same worker's.
+    detail::run_segment(
+        shader, count, [=](std::size_t j) { return segment[from + j]; },
+        [=, &shader](std::size_t j) {
+          std::size_t const next = from + chunk + j;
+          if (next < size) detail::prefetch_records(shader, segment[next]);
+        });
   });
 }
 
@@ -42,27 +58,12 @@ void run_explicit(host_system, Policy const& exec, grouping group,
     if (size == 0) return;
     [[maybe_unused]] auto const running = scratch.begin_phase({"shader", id, size});
     using type = std::decay_t<decltype(shader)>;
+    request_index const* const segment = group.permutation + begin;
     if constexpr (is_packable<type>) {
-      // Small chunks for a small segment, so that every worker has some.
-      std::size_t const chunk = size < 16384 ? 32 : packed_lanes<type>;
-      request_index const* const segment = group.permutation + begin;
-      thrust::for_each_n(exec, thrust::counting_iterator<std::uint32_t>(0),
-                         (size + chunk - 1) / chunk,
-                         [&shader, segment, size, chunk](std::uint32_t c) {
-                           std::size_t const from = c * chunk;
-                           std::size_t const count = std::min(chunk, size - from);
-                           // What comes next is prefetched: the next chunk, mostly the same
-                           // worker's.
-                           run_segment(
-                               shader, count, [=](std::size_t j) { return segment[from + j]; },
-                               [=, &shader](std::size_t j) {
-                                 std::size_t const next = from + chunk + j;
-                                 if (next < size) prefetch_records(shader, segment[next]);
-                               });
-                         });
+      detail::run_in_chunks(exec, shader, segment, size);
     } else {
-      thrust::for_each_n(exec, group.permutation + begin, size,
-                         [&shader](request_index i) { shader(i); });
+      detail::for_each_request(exec, size,
+                               [&shader, segment](request_index p) { shader(segment[p]); });
     }
   });
 }

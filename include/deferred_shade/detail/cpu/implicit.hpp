@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <thrust/for_each.h>
-#include <thrust/iterator/counting_iterator.h>
 #include <cstddef>
 
 #include <deferred_shade/detail/cpu/block_partition.hpp>
+#include <deferred_shade/detail/cpu/parallel_for.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/types.hpp>
@@ -13,20 +12,19 @@
 
 namespace deferred_shade::detail {
 
-template <class Policy, class Ids, class... Shaders>
+template <class Policy, class Ids, class... Shaders, class Workspace>
 void run_implicit(host_system, Policy const& exec, request_index n, Ids ids,
-                  shader_table<Shaders...> const& shaders) {
-  thrust::for_each_n(exec, thrust::counting_iterator<request_index>(0), std::size_t{n},
-                     [ids, &shaders](request_index i) {
-                       shaders.run(detail::shader_of(ids, i, sizeof...(Shaders)), i);
-                     });
+                  shader_table<Shaders...> const& shaders, Workspace const&) {
+  detail::for_each_request(exec, n, [ids, &shaders](request_index i) {
+    shaders.run(detail::shader_of(ids, i, sizeof...(Shaders)), i);
+  });
 }
 
 // The switch is on the segment that holds the request. Every block has its share of every segment,
 // so that no worker has all requests of the slowest shader.
-template <class Policy, class... Shaders>
+template <class Policy, class... Shaders, class Workspace>
 void run_implicit(host_system, Policy const& exec, grouping group,
-                  shader_table<Shaders...> const& shaders) {
+                  shader_table<Shaders...> const& shaders, Workspace const&) {
   block_partition const blocks(group.offsets[sizeof...(Shaders)], sizeof...(Shaders));
   for_each_block(exec, blocks, [=, &shaders](std::size_t b) {
     for (shader_id k = 0; k < sizeof...(Shaders); ++k) {

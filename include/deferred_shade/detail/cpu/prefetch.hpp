@@ -5,12 +5,10 @@
 #include <type_traits>
 
 #include <deferred_shade/config.hpp>
+#include <deferred_shade/detail/cpu/tuning.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade::detail {
-
-/// Where to: the caches of a core, as the compilers' built-in function counts them.
-enum class cache { none, second_level = 2, first_level = 3 };
 
 /// Brings what lies at pointer[i] near to this core, or the place for what will be written there.
 /// Knows pointers only; the address need not be valid. It is never said that something will be

@@ -37,10 +37,24 @@ class arena {
   std::byte* last_;
 };
 
+/// What is sorted: keys of one byte, and else of four. With keys of two bytes, Thrust takes 512 KiB
+/// of a worker's stack; of four bytes, it skips those that are the same in all keys.
+template <shader_id Shaders>
+using radix_key = std::conditional_t<(Shaders <= 0xff), std::uint8_t, std::uint32_t>;
+
+constexpr std::size_t radix_bytes(host_system, std::size_t n, std::size_t shaders) {
+  std::size_t const key = shaders <= 0xff ? 1 : 4;
+  std::size_t const pair = key + sizeof(request_index);
+  return 2 * array_bytes<request_index>(n) + array_bytes<std::byte>(n * key) +
+         array_bytes<std::byte>((n + 63) / 64 * 64 * pair) +
+         array_bytes<std::uint32_t>(block_partition::max_counters(n, shaders)) +
+         array_bytes<request_index>(shaders + 1);
+}
+
 template <shader_id Shaders, class Policy, class Ids, class Workspace>
 grouping radix_grouping(host_system, Policy const& exec, request_index n, Ids ids,
                         Workspace& scratch) {
-  using key = sort_key<Shaders>;
+  using key = radix_key<Shaders>;
   block_partition const blocks(n, Shaders);
   constexpr shader_id columns = Shaders + 1;
   constexpr std::size_t pair_size = sizeof(key) + sizeof(request_index);

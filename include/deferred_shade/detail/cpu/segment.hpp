@@ -8,7 +8,9 @@
 
 #include <deferred_shade/detail/cpu/lanes.hpp>
 #include <deferred_shade/detail/cpu/prefetch.hpp>
+#include <deferred_shade/detail/cpu/tuning.hpp>
 #include <deferred_shade/record_shaders.hpp>
+#include <deferred_shade/shader_traits.hpp>
 #include <deferred_shade/types.hpp>
 
 // How a CPU runs one shader on many requests: their records are packed, and the shader runs over
@@ -23,32 +25,22 @@
 
 namespace deferred_shade::detail {
 
-/// Whether a function lets its requests be packed: it does unless it says
-/// `static constexpr bool runs_in_vectors = false;`.
-template <class Function, class = void>
-inline constexpr bool may_run_in_vectors = true;
-template <class Function>
-inline constexpr bool
-    may_run_in_vectors<Function, std::void_t<decltype(Function::runs_in_vectors)>> =
-        Function::runs_in_vectors;
-
 /// Whether the requests of a shader are packed.
 template <class Shader>
 inline constexpr bool is_packable = false;
 template <class Source, class Function, class Sink>
 inline constexpr bool is_packable<record_shader<Source, Function, Sink>> =
-    may_run_in_vectors<Function>&&
+    shader_traits<Function>::runs_in_vectors&&
         has_words<typename record_shader<Source, Function, Sink>::request_type>&&
             has_words<typename record_shader<Source, Function, Sink>::result_type>;
 
-/// The requests of a shader that are packed at a time: up to 256, and as many as take, with their
-/// results, at most 16 KiB of the first-level cache.
+/// The requests of a shader that are packed at a time.
 template <class Shader>
-inline constexpr std::size_t packed_lanes = std::min(std::size_t{256},
-                                                     16384 /
-                                                         (sizeof(typename Shader::request_type) +
-                                                          sizeof(typename Shader::result_type)) /
-                                                         16 * 16);
+inline constexpr std::size_t packed_lanes = (std::min)(most_packed,
+                                                       packed_bytes /
+                                                           (sizeof(typename Shader::request_type) +
+                                                            sizeof(typename Shader::result_type)) /
+                                                           16 * 16);
 
 /// Brings request i and the place of its result near to this core, where `shader` is a record
 /// shader.

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <thrust/for_each.h>
-#include <thrust/iterator/counting_iterator.h>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
 #include <deferred_shade/detail/cpu/counting_sort.hpp>
+#include <deferred_shade/detail/cpu/parallel_for.hpp>
 #include <deferred_shade/detail/cpu/segment.hpp>
+#include <deferred_shade/detail/cpu/tuning.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/detail/tile_sorts.hpp>
 #include <deferred_shade/shader_table.hpp>
@@ -21,11 +21,10 @@ namespace deferred_shade::detail {
 template <request_index Tile, class Policy, class Function>
 void for_each_tile(Policy const& exec, request_index n, Function f) {
   std::size_t const tiles = (std::size_t{n} + Tile - 1) / Tile;
-  thrust::for_each_n(exec, thrust::counting_iterator<request_index>(0), tiles,
-                     [n, f](request_index t) {
-                       request_index const first = t * Tile;
-                       f(first, std::min(Tile, n - first));
-                     });
+  detail::parallel_for(exec, tiles, [n, f](std::size_t t) {
+    auto const first = static_cast<request_index>(t * Tile);
+    f(first, (std::min)(Tile, n - first));
+  });
 }
 
 /// The requests of one tile in the order of their shaders: `order[offsets[k]]` and what follows, up
@@ -37,13 +36,14 @@ struct sorted_tile {
   std::uint32_t offsets[Shaders + 2];
 };
 
-/// Sorts the `size` requests from `first` on by a stable counting sort.
-template <shader_id Shaders, request_index Tile, class Ids>
-void counting_sort(Ids const& ids, request_index first, request_index size,
-                   sorted_tile<Shaders, Tile>& result) {
+/// Sorts the `size` requests from `first` on by a stable counting sort. A function of its own: what
+/// it takes of the stack is free again when shaders run.
+template <class Tuning, shader_id Shaders, request_index Tile, class Ids>
+DEFERRED_SHADE_NOINLINE void counting_sort(Ids const& ids, request_index first, request_index size,
+                                           sorted_tile<Shaders, Tile>& result) {
   sort_key<Shaders> keys[Tile];
   load_keys<Shaders>(ids, first, size, keys);
-  key_counts<Shaders> counts;
+  key_counts<Shaders, Tuning::counted_parts(Shaders), compared_bytes<Shaders, Tuning>> counts;
   counts.add(keys, size);
   // Where the next request of shader k goes to is where those of k + 1 begin when all are placed.
   std::uint32_t* const next = result.offsets + 1;
@@ -74,14 +74,14 @@ request_index end_of_stretch(Ids const& ids, request_index begin, request_index 
 }
 
 /// Runs a tile as it lies, if neighbours mostly name the same shader: there is little to gain from
-/// sorting it. A tile has at most `Tile` requests. Returns whether it did.
-template <request_index Tile, class Ids, class... Shaders>
+/// sorting it. Returns whether it did.
+template <class Tuning, class Ids, class... Shaders>
 bool run_long_stretches(Ids const& ids, request_index first, request_index size,
                         shader_table<Shaders...> const& shaders) {
   constexpr shader_id none = sizeof...(Shaders);
-  constexpr request_index long_stretch = 64;
+  constexpr request_index long_stretch = Tuning::long_stretch;
   request_index const end = first + size;
-  request_index ends[Tile / long_stretch + 1], stretches = 0;
+  request_index ends[Tuning::tile / long_stretch + 1], stretches = 0;
   for (request_index begin = first; begin < end; begin = ends[stretches++]) {
     if (stretches > size / long_stretch) return false;
     ends[stretches] = end_of_stretch(ids, begin, end, none);
@@ -95,32 +95,6 @@ bool run_long_stretches(Ids const& ids, request_index first, request_index size,
     });
   }
   return true;
-}
-
-/// Sorts every tile by counting and runs its requests shader by shader.
-template <class Policy, class Ids, class... Shaders>
-void run_tiles(host_system, counting, Policy const& exec, request_index n, Ids ids,
-               shader_table<Shaders...> const& shaders) {
-  for_each_tile<counting::tile>(
-      exec, n, [n, ids, &shaders](request_index first, request_index size) {
-        if (run_long_stretches<counting::tile>(ids, first, size, shaders)) return;
-        sorted_tile<sizeof...(Shaders), counting::tile> tile;
-        counting_sort(ids, first, size, tile);
-        // The next tile, which mostly is the same worker's, in the order in which it lies.
-        std::size_t next = std::size_t{first} + size;
-        shaders.for_each([&](auto id, auto const& shader) {
-          std::uint16_t const* const order = tile.order + tile.offsets[id];
-          std::size_t const count = tile.offsets[id + 1] - tile.offsets[id];
-          run_segment(
-              shader, count, [=](std::size_t j) { return first + order[j]; },
-              [n, next, &shaders](std::size_t j) {
-                if (next + j >= n) return;
-                prefetch_records(shaders.template get<shader_table<Shaders...>::first_id()>(),
-                                 static_cast<request_index>(next + j));
-              });
-          next += count;
-        });
-      });
 }
 
 /// Sorts `Size` keys, a power of two, by Batcher's bitonic network ("Sorting networks and their
@@ -143,9 +117,10 @@ void bitonic_sort(std::uint32_t (&keys)[Size]) {
   }
 }
 
-template <class Policy, class Ids, class... Shaders>
+/// Sorts every tile by the network and runs its requests by a switch.
+template <class Policy, class Ids, class... Shaders, class Workspace>
 void run_tiles(host_system, bitonic, Policy const& exec, request_index n, Ids ids,
-               shader_table<Shaders...> const& shaders) {
+               shader_table<Shaders...> const& shaders, Workspace const&) {
   for_each_tile<bitonic::tile>(exec, n, [ids, &shaders](request_index first, request_index size) {
     std::uint32_t keys[bitonic::tile];
     for (request_index i = 0; i < size; ++i) {
@@ -160,14 +135,56 @@ void run_tiles(host_system, bitonic, Policy const& exec, request_index n, Ids id
   });
 }
 
-/// A CPU runs tables of any size in windows, which are its tiles.
-constexpr bool has_windows(host_system, shader_id) { return true; }
+/// Sorts every tile by counting and runs its requests shader by shader.
+template <class Tuning, class Policy, class Ids, class... Shaders>
+void run_counted_tiles(Policy const& exec, request_index n, Ids ids,
+                       shader_table<Shaders...> const& shaders) {
+  for_each_tile<Tuning::tile>(exec, n, [n, ids, &shaders](request_index first, request_index size) {
+    if (run_long_stretches<Tuning>(ids, first, size, shaders)) return;
+    sorted_tile<sizeof...(Shaders), Tuning::tile> tile;
+    counting_sort<Tuning>(ids, first, size, tile);
+    // The next tile, which mostly is the same worker's, in the order in which it lies.
+    std::size_t next = std::size_t{first} + size;
+    shaders.for_each([&](auto id, auto const& shader) {
+      std::uint16_t const* const order = tile.order + tile.offsets[id];
+      std::size_t const count = tile.offsets[id + 1] - tile.offsets[id];
+      run_segment(
+          shader, count, [=](std::size_t j) { return first + order[j]; },
+          [n, next, &shaders](std::size_t j) {
+            if (next + j >= n) return;
+            prefetch_records(shaders.template get<shader_table<Shaders...>::first_id()>(),
+                             static_cast<request_index>(next + j));
+          });
+      next += count;
+    });
+  });
+}
+
+/// Sorts every tile as tuning says.
+template <class Policy, class Ids, class... Shaders, class Workspace>
+void run_tiles(host_system here, counting, Policy const& exec, request_index n, Ids ids,
+               shader_table<Shaders...> const& shaders, Workspace const& scratch) {
+  using tuning = cpu_tuning_of<Workspace>;
+  if constexpr (tuning::counts_tiles(sizeof...(Shaders))) {
+    detail::run_counted_tiles<tuning>(exec, n, ids, shaders);
+  } else {
+    detail::run_tiles(here, bitonic{}, exec, n, ids, shaders, scratch);
+  }
+}
+
+/// A CPU runs tables of any size in windows, which are its tiles: they take no workspace.
+constexpr std::size_t window_bytes(host_system, std::size_t, std::size_t) { return 0; }
+
+template <class Workspace>
+constexpr bool has_windows(host_system, shader_id) {
+  return true;
+}
 
 template <class Policy, class Ids, class... Shaders, class Workspace>
 void run_windows(host_system here, Policy const& exec, request_index n, Ids ids,
                  shader_table<Shaders...> const& shaders, Workspace& scratch) {
   [[maybe_unused]] auto const dispatched = scratch.begin_phase({"dispatch"});
-  run_tiles(here, counting{}, exec, n, ids, shaders);
+  detail::run_tiles(here, counting{}, exec, n, ids, shaders, scratch);
 }
 
 }  // namespace deferred_shade::detail
