@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/large_bucket.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
 #include <deferred_shade/detail/cuda/radix_sort.hpp>
 #include <deferred_shade/detail/cuda/small_bucket.hpp>
+#include <deferred_shade/detail/cuda/tuning.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/types.hpp>
 
@@ -14,22 +16,21 @@
 // one time lies together in memory.
 
 namespace deferred_shade::detail {
-
-/// The largest table that a warp has a lane for each shader of.
-inline constexpr shader_id most_small_buckets = warp_size;
-
-/// The largest table that a thread block has counters for in shared memory; larger ones are sorted.
-inline constexpr shader_id most_large_buckets = 511;
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 template <shader_id Shaders, class Policy, class Count, class Ids, class Workspace>
 grouping bucket_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Workspace& scratch) {
-  if constexpr (Shaders <= most_small_buckets) {
+  constexpr bucket_algorithm algorithm = cuda_tuning_of<Workspace>::bucket(Shaders);
+  if constexpr (algorithm == bucket_algorithm::lanes) {
+    static_assert(Shaders <= warp_size, "tuning::bucket: a warp has lanes for 32 shaders");
     return small_bucket_grouping<Shaders>(stream_of(exec), n, ids, scratch);
-  } else if constexpr (Shaders <= most_large_buckets) {
+  } else if constexpr (algorithm == bucket_algorithm::counters) {
+    static_assert(Shaders <= 511, "tuning::bucket: shared memory has counters for 511 shaders");
     return large_bucket_grouping<Shaders>(stream_of(exec), n, ids, scratch);
   } else {
     return radix_grouping<Shaders>(cuda_system{}, exec, n, ids, scratch);
   }
 }
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

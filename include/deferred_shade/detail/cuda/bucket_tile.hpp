@@ -4,23 +4,17 @@
 #include <cstdint>
 #include <type_traits>
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/load_keys.hpp>
 #include <deferred_shade/detail/cuda/thread_counts.hpp>
+#include <deferred_shade/detail/cuda/tuning.hpp>
 #include <deferred_shade/detail/cuda/warp.hpp>
 #include <deferred_shade/types.hpp>
 
 // The tiles that buckets are made of, and how a thread block counts the requests of one.
 
 namespace deferred_shade::detail {
-
-inline constexpr std::uint32_t bucket_threads = 256;
-inline constexpr std::uint32_t bucket_items = 16;
-inline constexpr std::uint32_t bucket_warps = bucket_threads / warp_size;
-inline constexpr std::uint32_t bucket_tile = bucket_threads * bucket_items;
-
-/// Whether a thread counts its requests in registers.
-template <shader_id Shaders>
-inline constexpr bool counts_in_registers = Shaders < 16;
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// The requests that a thread block owns: all but the last block have `bucket_tile` of them.
 struct tile_of_block {
@@ -44,7 +38,7 @@ struct tile_of_block {
   /// The same, packed and in any order, for tables of at most 15 shaders. Those that name none have
   /// any id that the table lacks.
   template <shader_id Shaders, class Ids>
-  __device__ packed_keys load_packed_neighbours_of_thread(Ids const& ids) const {
+  __device__ four_bit_keys load_four_bit_neighbours_of_thread(Ids const& ids) const {
     if constexpr (std::is_pointer_v<Ids> && std::is_convertible_v<Ids, std::uint8_t const*>) {
       std::uint32_t const mine = threadIdx.x * bucket_items;
       auto const* const vector = reinterpret_cast<uint4 const*>(ids + first + mine);
@@ -57,7 +51,7 @@ struct tile_of_block {
     }
     std::uint32_t keys[bucket_items];
     load_neighbours_of_thread<Shaders>(ids, keys);
-    return pack_keys(keys);
+    return to_four_bits(keys);
   }
 };
 
@@ -76,13 +70,13 @@ class tile_counts {
   __device__ void count(Ids const& ids, tile_of_block tile, Write const& write) {
     std::uint32_t const lane = threadIdx.x % warp_size;
     std::uint32_t const warp = threadIdx.x / warp_size;
-    if constexpr (counts_in_registers<Shaders>) {
+    if constexpr (counts_in_registers(Shaders)) {
       using counts = thread_counts<Shaders>;
       std::uint32_t mine[counts::words];
-      counts::count(tile.load_packed_neighbours_of_thread<Shaders>(ids), mine);
+      counts::count(tile.load_four_bit_neighbours_of_thread<Shaders>(ids), mine);
 #pragma unroll
       for (std::uint32_t j = 0; j < counts::words; ++j) {
-        std::uint32_t const sum = __reduce_add_sync(all_lanes, mine[j]);
+        std::uint32_t const sum = sum_of_warp(mine[j]);
         if (lane == 0) memory_[warp][j] = sum;
       }
       __syncthreads();
@@ -110,8 +104,8 @@ class tile_counts {
         std::uint32_t sum = 0;
 #pragma unroll
         for (std::uint32_t w = 0; w < bucket_warps; ++w) sum += memory_[word][w * warp_size + lane];
-        std::uint32_t const even = __reduce_add_sync(all_lanes, sum & 0x00ff00ffU);
-        std::uint32_t const odd = __reduce_add_sync(all_lanes, sum >> 8 & 0x00ff00ffU);
+        std::uint32_t const even = sum_of_warp(sum & 0x00ff00ffU);
+        std::uint32_t const odd = sum_of_warp(sum >> 8 & 0x00ff00ffU);
         std::uint32_t const k = word * 4 + lane;
         if (lane < 4 && k < Shaders) {
           write(k, (lane % 2 == 0 ? even : odd) >> lane / 2 * 16 & 0xffff);
@@ -121,8 +115,9 @@ class tile_counts {
   }
 
  private:
-  static constexpr bool small = counts_in_registers<Shaders>;
+  static constexpr bool small = counts_in_registers(Shaders);
   std::uint32_t memory_[small ? bucket_warps : words][small ? 8 : bucket_threads];
 };
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

@@ -10,12 +10,15 @@
 #include <cstdint>
 #include <cub/device/device_select.cuh>
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
+#include <deferred_shade/detail/cuda/warp.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
 
 namespace deferred_shade::detail {
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// Whether a request names shader `id`.
 template <shader_id Shaders, class Count, class Ids>
@@ -97,4 +100,5 @@ grouping compact_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Wor
   return {permutation, offsets, maximum};
 }
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

@@ -7,13 +7,17 @@
 #include <type_traits>
 #include <utility>
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
+#include <deferred_shade/detail/cuda/call.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
 #include <deferred_shade/detail/cuda/occupancy.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/shader_table.hpp>
+#include <deferred_shade/shader_traits.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade::detail {
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// Runs one shader on the requests that name it.
 template <shader_id Id, shader_id Shaders, class Count, class Ids, class Shader>
@@ -21,7 +25,7 @@ __global__ void masked_kernel(bool first, Count n, Ids ids, Shader const __grid_
   independent_kernel const among_those_of_all_shaders(first);
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   auto const i = static_cast<request_index>(p);
-  if (p < size_of(n) && detail::shader_of(ids, i, Shaders) == Id) shader(i);
+  if (p < size_of(n) && detail::shader_of(ids, i, Shaders) == Id) detail::call_on_device(shader, i);
 }
 
 /// Runs one shader on its segment. The grid does not know how long that is: a block takes one
@@ -33,46 +37,88 @@ __global__ void segment_kernel(bool first, request_index const* permutation,
   std::size_t const end = offset[1];
   std::size_t const stride = std::size_t{gridDim.x} * blockDim.x;
   std::size_t p = offset[0] + std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
-  for (; p < end; p += stride) shader(permutation[p]);
+  for (; p < end; p += stride) detail::call_on_device(shader, permutation[p]);
+}
+
+/// The kernels of a table, a launch for each shader.
+template <class Count, class Ids, class... Shaders>
+struct masked_launches {
+  std::size_t maximum;
+
+  template <shader_id Id, class Shader>
+  static constexpr auto kernel = &masked_kernel<Id, sizeof...(Shaders), Count, Ids, Shader>;
+
+  template <shader_id Id, class Shader>
+  launch_shape shape() const {
+    std::uint32_t const threads =
+        occupancy_of<kernel<Id, Shader>>(shader_traits<Shader>::block_size).threads;
+    return {blocks_for(maximum, threads), threads};
+  }
+};
+
+struct segment_launches {
+  std::size_t maximum;
+  std::size_t shaders;  // that may occur
+
+  template <shader_id, class Shader>
+  static constexpr auto kernel = &segment_kernel<Shader>;
+
+  /// Enough for an equal share of the requests, and to fill the device if one shader has them all.
+  template <shader_id Id, class Shader>
+  launch_shape shape() const {
+    auto const [threads, resident] =
+        occupancy_of<kernel<Id, Shader>>(shader_traits<Shader>::block_size);
+    std::size_t const share = blocks_for(maximum / shaders, threads);
+    return {(std::min)(blocks_for(maximum, threads), (std::max)(resident, share)), threads};
+  }
+};
+
+/// Launches the kernels of all shaders that may occur, with `arguments(id)` and the shader. All
+/// must fit a grid before the first one runs.
+template <class Launches, class... Shaders, class Workspace, class Launch>
+void launch_each(Launches const& launches, shader_table<Shaders...> const& shaders,
+                 Workspace const& scratch, Launch const& launch_one) {
+  auto const expected = shaders.expected();
+  shaders.for_each([&](auto id, auto const& shader) {
+    using type = std::decay_t<decltype(shader)>;
+    if (expected[id]) {
+      check_grid("explicit_serialization", launches.template shape<decltype(id)::value, type>());
+    }
+  });
+  bool first = true;
+  shaders.for_each([&](auto id, auto const& shader) {
+    using type = std::decay_t<decltype(shader)>;
+    if (!expected[id]) return;
+    [[maybe_unused]] auto const running = scratch.begin_phase({"shader", id});
+    launch_one(id, shader, launches.template shape<decltype(id)::value, type>(),
+               std::exchange(first, false));
+  });
 }
 
 template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
 void run_explicit(cuda_system, Policy const& exec, Count n, Ids ids,
                   shader_table<Shaders...> const& shaders, Workspace const& scratch) {
-  cudaStream_t const stream = stream_of(exec);
-  auto const expected = shaders.expected();
-  bool first = true;
-  shaders.for_each([&](auto id, auto const& shader) {
-    if (!expected[id]) return;
-    [[maybe_unused]] auto const running = scratch.begin_phase({"shader", id});
-    using type = std::decay_t<decltype(shader)>;
-    constexpr auto kernel =
-        &masked_kernel<decltype(id)::value, sizeof...(Shaders), Count, Ids, type>;
-    std::uint32_t const threads = occupancy_of<kernel>(declared_block_size<type>).threads;
-    launch<kernel>("explicit_serialization", stream, {blocks_for(maximum_of(n), threads), threads},
-                   std::exchange(first, false), n, ids, shader);
-  });
+  using launches = masked_launches<Count, Ids, Shaders...>;
+  detail::launch_each(launches{maximum_of(n)}, shaders, scratch,
+                      [&](auto id, auto const& shader, launch_shape shape, bool first) {
+                        using type = std::decay_t<decltype(shader)>;
+                        launch<launches::template kernel<decltype(id)::value, type>>(
+                            "explicit_serialization", stream_of(exec), shape, first, n, ids,
+                            shader);
+                      });
 }
 
 template <class Policy, class... Shaders, class Workspace>
 void run_explicit(cuda_system, Policy const& exec, grouping group,
                   shader_table<Shaders...> const& shaders, Workspace const& scratch) {
-  cudaStream_t const stream = stream_of(exec);
-  auto const expected = shaders.expected();
-  bool first = true;
-  shaders.for_each([&](auto id, auto const& shader) {
-    if (!expected[id]) return;
-    [[maybe_unused]] auto const running = scratch.begin_phase({"shader", id});
-    using type = std::decay_t<decltype(shader)>;
-    constexpr auto kernel = &segment_kernel<type>;
-    auto const [threads, resident] = occupancy_of<kernel>(declared_block_size<type>);
-    // Enough for an equal share of the requests, and to fill the device if one shader has them all.
-    std::size_t const share = blocks_for(group.maximum / expected.count(), threads);
-    std::size_t const blocks =
-        std::min(blocks_for(group.maximum, threads), std::max(resident, share));
-    launch<kernel>("explicit_serialization", stream, {blocks, threads}, std::exchange(first, false),
-                   group.permutation, group.offsets + id, shader);
-  });
+  segment_launches const launches{group.maximum, shaders.expected().count()};
+  detail::launch_each(
+      launches, shaders, scratch, [&](auto id, auto const& shader, launch_shape shape, bool first) {
+        using type = std::decay_t<decltype(shader)>;
+        launch<&segment_kernel<type>>("explicit_serialization", stream_of(exec), shape, first,
+                                      group.permutation, group.offsets + id, shader);
+      });
 }
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

@@ -8,12 +8,14 @@
 
 #include <deferred_shade/cuda.hpp>
 #include <deferred_shade/detail/checked_count.hpp>
+#include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
 #include <deferred_shade/types.hpp>
 
 // For reports, which the host makes: copies of what lies on a CUDA device.
 
 namespace deferred_shade::detail {
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// The number of requests, once the stream has come to it; as checked_count, with what it throws.
 template <class Integer>
@@ -60,4 +62,5 @@ std::vector<shader_id> ids_on_host(cudaStream_t stream, std::size_t n, Ids ids) 
   return copy;
 }
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

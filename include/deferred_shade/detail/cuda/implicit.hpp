@@ -6,8 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <new>
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
+#include <deferred_shade/detail/cuda/call.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
 #include <deferred_shade/detail/cuda/staging.hpp>
 #include <deferred_shade/detail/system.hpp>
@@ -16,6 +17,7 @@
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade::detail {
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// Runs every request through the shader that it names.
 template <class Count, class Ids, class... Shaders>
@@ -24,7 +26,9 @@ __global__ void switch_kernel(Count n, Ids ids,
   begin_after_earlier_kernels();
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   auto const i = static_cast<request_index>(p);
-  if (p < size_of(n)) shaders.run(detail::shader_of(ids, i, sizeof...(Shaders)), i);
+  if (p < size_of(n)) {
+    shaders.visit(detail::shader_of(ids, i, sizeof...(Shaders)), run_on_device{i});
+  }
 }
 
 /// The same for record shaders: all lanes load their requests at a time and store their results at
@@ -52,12 +56,14 @@ __global__ void records_kernel(Count n, Ids ids,
   };
   alignas(request) unsigned char in[sizeof(request)];
   alignas(result) unsigned char out[sizeof(result)];
-  at_place([&](auto const& shader) { new (in) request(detail::load(shader.source, i)); });
+  at_place([&](auto const& shader) {
+    *reinterpret_cast<request*>(in) = detail::load_on_device(shader.source, i);
+  });
   shaders.visit(id, [&](auto const& shader) {
-    new (out) result(shader.function(*reinterpret_cast<request const*>(in)));
+    *reinterpret_cast<result*>(out) = shader.function(*reinterpret_cast<request const*>(in));
   });
   at_place([&](auto const& shader) {
-    detail::store(shader.sink, i, *reinterpret_cast<result const*>(out));
+    detail::store_on_device(shader.sink, i, *reinterpret_cast<result const*>(out));
   });
 }
 
@@ -70,16 +76,8 @@ __global__ void segments_kernel(request_index const* permutation, request_index 
   if (p >= offsets[sizeof...(Shaders)]) return;
   request_index const* const ends = offsets + 1;
   auto const id = thrust::upper_bound(thrust::seq, ends, ends + sizeof...(Shaders), p) - ends;
-  shaders.run(static_cast<shader_id>(id), permutation[p]);
+  shaders.visit(static_cast<shader_id>(id), run_on_device{permutation[p]});
 }
-
-inline constexpr std::uint32_t switch_threads = 256;
-
-// The warps of a large block run the same shaders at about the same time, and share their
-// instructions; with few shaders, small blocks make room for the next one sooner.
-template <class... Shaders>
-inline constexpr std::uint32_t index_switch_threads = sizeof...(Shaders) <= 8 ? switch_threads / 2
-                                                                              : switch_threads;
 
 /// Whether the shaders of a table load from one place and store to one.
 template <class... Shaders>
@@ -95,29 +93,32 @@ bool have_one_place(shader_table<Shaders...> const& shaders) {
   return result;
 }
 
-template <class Policy, class Count, class Ids, class... Shaders>
+template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
 void run_implicit(cuda_system, Policy const& exec, Count n, Ids ids,
-                  shader_table<Shaders...> const& shaders) {
+                  shader_table<Shaders...> const& shaders, Workspace const&) {
   std::size_t const maximum = maximum_of(n);
-  if constexpr (staging<Shaders...>::possible) {
-    launch<&records_kernel<Count, Ids, Shaders...>>(
-        "implicit_serialization", stream_of(exec),
-        {blocks_for(maximum, switch_threads), switch_threads}, n, ids, shaders,
-        have_one_place(shaders));
+  constexpr bool records = staging<Shaders...>::possible;
+  constexpr std::uint32_t threads =
+      cuda_tuning_of<Workspace>::switch_threads(sizeof...(Shaders), records);
+  if constexpr (records) {
+    launch<&records_kernel<Count, Ids, Shaders...>>("implicit_serialization", stream_of(exec),
+                                                    {blocks_for(maximum, threads), threads}, n, ids,
+                                                    shaders, have_one_place(shaders));
   } else {
-    constexpr std::uint32_t threads = index_switch_threads<Shaders...>;
     launch<&switch_kernel<Count, Ids, Shaders...>>("implicit_serialization", stream_of(exec),
                                                    {blocks_for(maximum, threads), threads}, n, ids,
                                                    shaders);
   }
 }
 
-template <class Policy, class... Shaders>
+template <class Policy, class... Shaders, class Workspace>
 void run_implicit(cuda_system, Policy const& exec, grouping group,
-                  shader_table<Shaders...> const& shaders) {
+                  shader_table<Shaders...> const& shaders, Workspace const&) {
+  constexpr std::uint32_t threads = cuda_tuning_of<Workspace>::grouped_switch_threads;
   launch<&segments_kernel<Shaders...>>("implicit_serialization", stream_of(exec),
-                                       {blocks_for(group.maximum, switch_threads), switch_threads},
+                                       {blocks_for(group.maximum, threads), threads},
                                        group.permutation, group.offsets, shaders);
 }
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

@@ -6,15 +6,18 @@
 #include <cstdint>
 #include <cub/device/device_scan.cuh>
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/bucket_tile.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
 #include <deferred_shade/detail/cuda/tile_sort.hpp>
+#include <deferred_shade/detail/cuda/warp.hpp>
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
 
 // Buckets for a larger table: a thread block owns a tile.
 
 namespace deferred_shade::detail {
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// counts[k * tiles + t] becomes the number of requests of shader k in tile t. A thread takes
 /// neighbouring requests and adds once for each stretch of equal ids.
@@ -44,7 +47,8 @@ __global__ void __launch_bounds__(bucket_threads)
 /// Puts the requests of every tile to their places: `places[k * tiles + t]` is the one of the first
 /// request of shader k in tile t, and the last element is the number of all that have a shader.
 template <shader_id Shaders, class Count, class Ids>
-__global__ void __launch_bounds__(bucket_threads, 3)
+__global__ void __launch_bounds__(bucket_threads,
+                                  blocks_that_fit(large_place_blocks, bucket_threads))
     large_bucket_place_kernel(Count n, Ids ids, std::uint32_t const* places,
                               request_index* permutation, request_index* offsets) {
   using sort = tile_sort<Shaders, bucket_threads, bucket_items>;
@@ -107,4 +111,5 @@ grouping large_bucket_grouping(cudaStream_t stream, Count n, Ids ids, Workspace&
   return {permutation, offsets, maximum};
 }
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

@@ -7,13 +7,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <type_traits>
 
 #include <deferred_shade/cuda.hpp>
+#include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/overlap.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade::detail {
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// The stream that a Thrust policy for CUDA names.
 template <class Policy>
@@ -61,9 +64,9 @@ constexpr bool is_compiled_for_overlap() {
   return false;
 }
 
-/// Whether `Kernel` may start before the work ahead of it is done: on GPUs that can, where its code
-/// was compiled for them, so that it waits by itself. Asked of CUDA once per thread of the host,
-/// and again where its device changes.
+/// Whether `Kernel` may start before the work ahead of it is done: on GPUs that can, if its code
+/// was compiled for them and waits by itself. Asked of CUDA once per thread of the host, and again
+/// if its device changes.
 template <auto Kernel>
 bool may_start_early() {
   thread_local int known_device = -1;
@@ -80,12 +83,24 @@ bool may_start_early() {
   return known;
 }
 
+/// Throws if no grid has so many blocks. Called for all launches of a batch before the first one.
+inline void check_grid(char const* what, launch_shape shape) {
+  constexpr std::size_t most = 0x7fffffff;
+  if (shape.blocks <= most) return;
+  std::string const doing = std::string(what) + ": a launch of " + std::to_string(shape.blocks) +
+                            " blocks of " + std::to_string(shape.threads) +
+                            " threads, where a grid has at most " + std::to_string(most) +
+                            "; let the shader have a larger block_size";
+  check_cuda(cudaErrorInvalidConfiguration, doing.c_str());
+}
+
 /// Launches `Kernel` on `stream`; throws where CUDA refuses: `what` says which one it was. `Kernel`
 /// waits for the work ahead of it: see overlap.hpp.
 template <auto Kernel, class... Arguments>
 void launch(char const* what, cudaStream_t stream, launch_shape shape,
             Arguments const&... arguments) {
   if (shape.blocks == 0) return;
+  check_grid(what, shape);
   if (shape.shared_bytes > 0) {  // with what the kernel has itself, it may be more than the default
     check_cuda(cudaFuncSetAttribute(Kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
                                     static_cast<int>(shape.shared_bytes)),
@@ -122,4 +137,5 @@ inline std::size_t multiprocessors() {
   return static_cast<std::size_t>(count);
 }
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <type_traits>
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/warp.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade::detail {
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// Ids that lie in memory, or are made one by one of what lies there.
 template <class Ids>
@@ -94,4 +96,5 @@ __device__ void load_rows(Ids const& ids, request_index first, std::uint32_t siz
   }
 }
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
+
 // Kernels of one stream that overlap, from compute capability 9.0 on ("programmatic dependent
 // launch" in CUDA's guide): the blocks of a kernel move in while the last blocks of the one ahead
 // still run. So a kernel that launch() starts has to wait by itself: by its end at the latest for
@@ -13,6 +15,7 @@
 // first-level caches hold; CUB's kernels rest on it as well.
 
 namespace deferred_shade::detail {
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// Returns when everything ahead of this kernel on its stream is done, and what it wrote visible.
 __device__ inline void wait_for_earlier_kernels() {
@@ -51,4 +54,5 @@ class independent_kernel {
   bool first_;
 };
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cub/device/device_radix_sort.cuh>
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
 #include <deferred_shade/detail/cuda/warp.hpp>
 #include <deferred_shade/detail/system.hpp>
@@ -12,6 +13,7 @@
 #include <deferred_shade/workspace.hpp>
 
 namespace deferred_shade::detail {
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// The pairs that are sorted. Requests at and behind the count take the key of those without a
 /// shader, so that they end up at the end.
@@ -76,4 +78,5 @@ grouping radix_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Works
   return {indices.Current(), offsets, maximum};
 }
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/warp.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade::detail {
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// The lanes in whose `key` some bit of `mask` is set. (The compiler takes two instructions more
 /// for the same in C++.)
@@ -62,4 +64,5 @@ __device__ std::uint32_t rank_in_warp(std::uint32_t const (&keys)[Items],
   return count;
 }
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <cub/block/block_scan.cuh>
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/bucket_tile.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
 #include <deferred_shade/detail/cuda/sorted_bucket_tile.hpp>
+#include <deferred_shade/detail/cuda/tuning.hpp>
 #include <deferred_shade/detail/cuda/warp.hpp>
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
@@ -16,6 +18,7 @@
 // Buckets for a table of up to 32 shaders, each of which has a lane of every warp to look after it.
 
 namespace deferred_shade::detail {
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// Where the count of one shader in one tile lies.
 struct tile_count_layout {
@@ -36,14 +39,11 @@ __global__ void __launch_bounds__(bucket_threads)
                  [&](shader_id k, std::uint32_t count) { counts[layout(k, blockIdx.x)] = count; });
 }
 
-/// The blocks of small_bucket_place_kernel that share a multiprocessor: what registers allow.
-template <shader_id Shaders>
-inline constexpr int place_blocks = counts_in_registers<Shaders> ? 6 : 4;
-
 /// Sorts every tile and writes each request to where `Output` says that the requests of its shader
 /// and tile go.
 template <shader_id Shaders, class Count, class Ids, class Output>
-__global__ void __launch_bounds__(bucket_threads, place_blocks<Shaders>)
+__global__ void __launch_bounds__(bucket_threads,
+                                  blocks_that_fit(place_blocks(Shaders), bucket_threads))
     small_bucket_place_kernel(Count n, Ids ids, Output output) {
   __shared__ sorted_bucket_tile<Shaders> sorted;
   __shared__ typename Output::shared_memory shared;
@@ -64,8 +64,6 @@ __global__ void __launch_bounds__(bucket_threads, place_blocks<Shaders>)
     output.write(there + (row * bucket_threads + threadIdx.x), tile.first, slot);
   }
 }
-
-inline constexpr std::uint32_t bucket_scan_threads = 1024;
 
 /// Turns the counts of shader blockIdx.x into the number of its requests in the tiles before, and
 /// totals[k] into the number of all its requests.
@@ -144,4 +142,5 @@ grouping small_bucket_grouping(cudaStream_t stream, Count n, Ids ids, Workspace&
   return {permutation, offsets, maximum};
 }
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/bucket_tile.hpp>
 #include <deferred_shade/detail/cuda/load_keys.hpp>
 #include <deferred_shade/detail/cuda/rank_in_warp.hpp>
@@ -11,6 +12,7 @@
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade::detail {
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// A tile sorted by the shaders that its requests name, in shared memory. A lane of every warp
 /// looks after each shader.
@@ -26,7 +28,7 @@ class sorted_bucket_tile {
   /// Sorts a tile. Called by all threads of the block; a barrier must follow.
   template <class Ids>
   __device__ segment sort(Ids const& ids, tile_of_block tile) {
-    if constexpr (counts_in_registers<Shaders>) {
+    if constexpr (counts_in_registers(Shaders)) {
       return sort_by_threads(ids, tile);
     } else {
       return sort_by_lanes(ids, tile);
@@ -40,7 +42,7 @@ class sorted_bucket_tile {
   }
 
  private:
-  static constexpr bool by_threads = counts_in_registers<Shaders>;
+  static constexpr bool by_threads = counts_in_registers(Shaders);
 
   // What neighbouring threads write together is as far apart as a thread has requests: one word
   // more for every 32 keeps it in different banks.
@@ -74,7 +76,7 @@ class sorted_bucket_tile {
     std::uint32_t keys[bucket_items];
     tile.load_neighbours_of_thread<Shaders>(ids, keys);
     std::uint32_t sums[counts::words];
-    counts::count(pack_keys(keys), sums);
+    counts::count(to_four_bits(keys), sums);
     std::uint32_t of_lane = 0;
 #pragma unroll
     for (std::uint32_t j = 0; j < counts::words; ++j) {
@@ -134,4 +136,5 @@ class sorted_bucket_tile {
   std::uint32_t slots_[spread(bucket_tile)];
 };
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

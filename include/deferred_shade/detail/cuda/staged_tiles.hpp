@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
+#include <deferred_shade/detail/cuda/call.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
 #include <deferred_shade/detail/cuda/staging.hpp>
 #include <deferred_shade/detail/cuda/tile_rows.hpp>
@@ -16,18 +18,14 @@
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade::detail {
-
-// A row is full where a shader has many requests in a tile: small tables do with small tiles, more
-// of which are under way at one time, some of them loading, some shading, some storing.
-template <class... Shaders>
-inline constexpr std::uint32_t staged_threads = sizeof...(Shaders) <= 8 ? 128 : 512;
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// One tile of record shaders: requests are loaded into shared memory in the order in which they
 /// lie, shaded in the order of their shaders, and the results, which take the place of the
 /// requests, are stored in the order in which they lie. `one_source`: all shaders have the same
 /// pointer.
-template <std::uint32_t Items, class Count, class Ids, class... Shaders>
-__global__ void __launch_bounds__(staged_threads<Shaders...>)
+template <std::uint32_t Threads, std::uint32_t Items, class Count, class Ids, class... Shaders>
+__global__ void __launch_bounds__(Threads)
     staged_kernel(Count n, Ids ids, shader_table<Shaders...> const __grid_constant__ shaders,
                   bool one_source) {
   using records = staging<Shaders...>;
@@ -35,8 +33,7 @@ __global__ void __launch_bounds__(staged_threads<Shaders...>)
   using result = typename records::result;
   using source_type = typename records::source_type;
   using sink_type = typename records::sink_type;
-  constexpr std::uint32_t threads = staged_threads<Shaders...>;
-  using sort = tile_sort<sizeof...(Shaders), threads, Items>;
+  using sort = tile_sort<sizeof...(Shaders), Threads, Items>;
   extern __shared__ uint4 slots[];
   __shared__ typename sort::temporary_storage temporary;
   __shared__ std::uint32_t starts[sort::columns];
@@ -61,7 +58,7 @@ __global__ void __launch_bounds__(staged_threads<Shaders...>)
       auto const* const words =
           reinterpret_cast<uint4 const*>(shaders.template get<0>().source + first);
       auto const count = static_cast<std::uint32_t>(size * (records::slot / sizeof(uint4)));
-      for (std::uint32_t w = threadIdx.x; w < count; w += threads) {
+      for (std::uint32_t w = threadIdx.x; w < count; w += Threads) {
         __pipeline_memcpy_async(&slots[w], &words[w], sizeof(uint4));
       }
       __pipeline_commit();
@@ -87,10 +84,10 @@ __global__ void __launch_bounds__(staged_threads<Shaders...>)
   rows.find(starts);
   if (!(records::copies_words && one_source)) {
     __syncthreads();
-    for (std::uint32_t p = threadIdx.x; p < size; p += threads) {
+    for (std::uint32_t p = threadIdx.x; p < size; p += Threads) {
       if (shader_at[p] == sizeof...(Shaders)) continue;
       auto const& source = *reinterpret_cast<source_type const*>(sources[shader_at[p]]);
-      *reinterpret_cast<request*>(slot(p)) = detail::load(source, first + p);
+      *reinterpret_cast<request*>(slot(p)) = detail::load_on_device(source, first + p);
     }
   }
   __pipeline_wait_prior(0);
@@ -102,18 +99,18 @@ __global__ void __launch_bounds__(staged_threads<Shaders...>)
         id, [&](auto const& shader) { *reinterpret_cast<result*>(memory) = shader.function(r); });
   });
   __syncthreads();
-  for (std::uint32_t p = threadIdx.x; p < size; p += threads) {
+  for (std::uint32_t p = threadIdx.x; p < size; p += Threads) {
     if (shader_at[p] == sizeof...(Shaders)) continue;
-    detail::store(*reinterpret_cast<sink_type const*>(sinks[shader_at[p]]), first + p,
-                  *reinterpret_cast<result const*>(slot(p)));
+    detail::store_on_device(*reinterpret_cast<sink_type const*>(sinks[shader_at[p]]), first + p,
+                            *reinterpret_cast<result const*>(slot(p)));
   }
 }
 
-template <class Policy, class Count, class Ids, class... Shaders>
+template <class Tuning, class Policy, class Count, class Ids, class... Shaders>
 void run_staged(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders) {
   using records = staging<Shaders...>;
-  constexpr auto items = static_cast<std::uint32_t>(std::min<std::size_t>(8, 128 / records::slot));
-  constexpr std::uint32_t threads = staged_threads<Shaders...>;
+  constexpr std::uint32_t items = Tuning::staged_items(records::slot);
+  constexpr std::uint32_t threads = Tuning::staged_threads(sizeof...(Shaders));
   constexpr std::size_t tile = threads * items;
   bool one_source = records::copies_words;
   if constexpr (records::copies_words) {
@@ -121,10 +118,11 @@ void run_staged(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> c
       one_source = one_source && shader.source == shaders.template get<0>().source;
     });
   }
-  launch<&staged_kernel<items, Count, Ids, Shaders...>>(
+  launch<&staged_kernel<threads, items, Count, Ids, Shaders...>>(
       "local_sort_then_dispatch", stream_of(exec),
       {(maximum_of(n) + tile - 1) / tile, threads, tile * records::slot}, n, ids, shaders,
       one_source);
 }
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

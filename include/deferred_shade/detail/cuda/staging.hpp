@@ -7,10 +7,13 @@
 #include <tuple>
 #include <type_traits>
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
+#include <deferred_shade/detail/cuda/tuning.hpp>
 #include <deferred_shade/record_shaders.hpp>
 #include <deferred_shade/shader_table.hpp>
 
 namespace deferred_shade::detail {
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// Whether T is the type of an extended lambda. nvcc gives its host compiler another type in its
 /// place, whose traits differ: which kernel there is must not depend on them.
@@ -50,7 +53,7 @@ struct common_records<record_shader<Source, Functions, Sink>...> {
       (std::is_same_v<result, typename shader<Functions>::result_type> && ...) &&
       std::is_trivially_copyable_v<request> && std::is_trivially_copyable_v<result> &&
       std::is_trivially_copyable_v<Source> && std::is_trivially_copyable_v<Sink> &&
-      alignof(request) <= 16 && alignof(result) <= 16 && slot <= 128;
+      alignof(request) <= 16 && alignof(result) <= 16 && slot <= largest_staged_record;
 
   /// Whether requests lie in memory as they lie in the slots, so that 16 bytes are copied at a
   /// time.
@@ -67,6 +70,7 @@ struct staging_if_small {
 template <class... Shaders>
 struct staging_if_small<true, Shaders...> : common_records<Shaders...> {};
 template <class... Shaders>
-using staging = staging_if_small<sizeof...(Shaders) <= 16, Shaders...>;
+using staging = staging_if_small<sizeof...(Shaders) <= most_staged_shaders, Shaders...>;
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

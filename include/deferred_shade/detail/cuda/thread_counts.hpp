@@ -3,19 +3,21 @@
 
 #include <cstdint>
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/warp.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade::detail {
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// Sixteen ids of four bits, eight to a word.
-struct packed_keys {
+struct four_bit_keys {
   std::uint32_t low;
   std::uint32_t high;
 };
 
-__device__ inline packed_keys pack_keys(std::uint32_t const (&keys)[16]) {
-  packed_keys packed{0, 0};
+__device__ inline four_bit_keys to_four_bits(std::uint32_t const (&keys)[16]) {
+  four_bit_keys packed{0, 0};
 #pragma unroll
   for (std::uint32_t i = 0; i < 8; ++i) {
     packed.low += keys[i] << 4 * i;
@@ -47,7 +49,7 @@ class thread_counts {
     return word >> k % per_word * bits & ((1U << bits) - 1);
   }
 
-  __device__ static void count(packed_keys keys, std::uint32_t (&counts)[words]) {
+  __device__ static void count(four_bit_keys keys, std::uint32_t (&counts)[words]) {
     // The same bit of all ids, in every other bit of a word.
     std::uint32_t const lower = (keys.low & 0x33333333) | (keys.high << 2 & 0xcccccccc);
     std::uint32_t const upper = (keys.low >> 2 & 0x33333333) | (keys.high & 0xcccccccc);
@@ -64,4 +66,5 @@ class thread_counts {
   }
 };
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

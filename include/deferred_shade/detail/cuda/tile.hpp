@@ -4,33 +4,29 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
+#include <deferred_shade/detail/cuda/call.hpp>
+#include <deferred_shade/detail/cuda/dense_tiles.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
-#include <deferred_shade/detail/cuda/packed_tiles.hpp>
 #include <deferred_shade/detail/cuda/staged_tiles.hpp>
 #include <deferred_shade/detail/cuda/staging.hpp>
 #include <deferred_shade/detail/cuda/tile_rows.hpp>
 #include <deferred_shade/detail/cuda/tile_sort.hpp>
+#include <deferred_shade/detail/cuda/tuning.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/detail/tile_sorts.hpp>
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade::detail {
-
-// A tile is the largest that a multiprocessor has room for with two blocks: all warps of a block
-// then run the same shader at the same time, or nearly, and share its instructions.
-inline constexpr std::uint32_t tile_threads = 512;
-inline constexpr std::uint32_t tile_items = 8;
-
-/// The largest table that a tile has counters for in shared memory; larger ones sort with bitonic.
-inline constexpr shader_id most_tile_shaders = 255;
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// Sorts one tile, shades it row by row: a row is 32 requests of one shader, or what is left of
 /// them, and a warp takes the next row as soon as it has done one.
-template <class Count, class Ids, class... Shaders>
-__global__ void __launch_bounds__(tile_threads)
+template <std::uint32_t Threads, std::uint32_t Items, class Count, class Ids, class... Shaders>
+__global__ void __launch_bounds__(Threads)
     tile_kernel(Count n, Ids ids, shader_table<Shaders...> const __grid_constant__ shaders) {
-  using sort = tile_sort<sizeof...(Shaders), tile_threads, tile_items>;
+  using sort = tile_sort<sizeof...(Shaders), Threads, Items>;
   __shared__ typename sort::temporary_storage temporary;
   __shared__ std::uint32_t starts[sort::columns];
   __shared__ tile_rows<sort> rows;
@@ -42,20 +38,21 @@ __global__ void __launch_bounds__(tile_threads)
   auto const first = static_cast<request_index>(tile);
   auto const size = static_cast<std::uint32_t>(min(std::size_t{sort::size}, end - tile));
 
-  std::uint32_t keys[tile_items];
-  std::uint32_t places[tile_items];
+  std::uint32_t keys[Items];
+  std::uint32_t places[Items];
   sort::load(ids, first, size, keys);
   sort::find_places(temporary, keys, places, starts);
   __syncthreads();
 #pragma unroll
-  for (std::uint32_t item = 0; item < tile_items; ++item) {
+  for (std::uint32_t item = 0; item < Items; ++item) {
     if (sort::has_place(keys[item]))
       order[places[item]] = static_cast<std::uint16_t>(sort::position(item));
   }
   rows.find(starts);
   __syncthreads();
-  rows.for_each(starts,
-                [&](shader_id id, std::uint32_t place) { shaders.run(id, first + order[place]); });
+  rows.for_each(starts, [&](shader_id id, std::uint32_t place) {
+    shaders.visit(id, run_on_device{first + order[place]});
+  });
 }
 
 /// Sorts a block of 256 requests by a bitonic network and runs the switch over them.
@@ -93,32 +90,42 @@ __global__ void __launch_bounds__(bitonic::tile)
       key = ascending == lower ? min(key, other) : max(key, other);
     }
   }
-  if (key != 0xffffffffU) shaders.run(key / bitonic::tile, first + key % bitonic::tile);
+  if (key != 0xffffffffU)
+    shaders.visit(key / bitonic::tile, run_on_device{first + key % bitonic::tile});
 }
 
-template <class Policy, class Count, class Ids, class... Shaders>
+template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
 void run_tiles(cuda_system, bitonic, Policy const& exec, Count n, Ids ids,
-               shader_table<Shaders...> const& shaders) {
+               shader_table<Shaders...> const& shaders, Workspace const&) {
   constexpr std::uint32_t threads = bitonic::tile;
   launch<&bitonic_kernel<Count, Ids, Shaders...>>(
       "local_sort_then_dispatch<bitonic>", stream_of(exec),
       {blocks_for(maximum_of(n), threads), threads}, n, ids, shaders);
 }
 
-template <class Policy, class Count, class Ids, class... Shaders>
-void run_tiles(cuda_system, counting, Policy const& exec, Count n, Ids ids,
-               shader_table<Shaders...> const& shaders) {
-  if constexpr (sizeof...(Shaders) > most_tile_shaders) {
-    run_tiles(cuda_system{}, bitonic{}, exec, n, ids, shaders);
-  } else if constexpr (staging<Shaders...>::possible) {
-    run_staged(exec, n, ids, shaders);
-  } else if constexpr (sizeof...(Shaders) <= most_packed_shaders) {
-    run_packed_tiles(exec, n, ids, shaders);
+/// Runs every tile as tuning says.
+template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
+void run_tiles(cuda_system here, counting, Policy const& exec, Count n, Ids ids,
+               shader_table<Shaders...> const& shaders, Workspace const& scratch) {
+  using tuning = cuda_tuning_of<Workspace>;
+  constexpr bool records = staging<Shaders...>::possible;
+  constexpr tile_algorithm algorithm = tuning::tile(sizeof...(Shaders), records);
+  if constexpr (algorithm == tile_algorithm::bitonic) {
+    detail::run_tiles(here, bitonic{}, exec, n, ids, shaders, scratch);
+  } else if constexpr (algorithm == tile_algorithm::staged) {
+    static_assert(records, "tuning::tile: this table cannot be staged (docs/limits.md, Records)");
+    run_staged<tuning>(exec, n, ids, shaders);
+  } else if constexpr (algorithm == tile_algorithm::dense) {
+    run_dense_tiles<tuning>(exec, n, ids, shaders);
   } else {
-    launch<&tile_kernel<Count, Ids, Shaders...>>(
+    static_assert(sizeof...(Shaders) <= 255, "tuning::tile: rows have counters for 255 shaders");
+    launch<&tile_kernel<tuning::tile_threads, tuning::tile_items, Count, Ids, Shaders...>>(
         "local_sort_then_dispatch", stream_of(exec),
-        {blocks_for(maximum_of(n), tile_threads * tile_items), tile_threads}, n, ids, shaders);
+        {blocks_for(maximum_of(n), tuning::tile_threads * tuning::tile_items),
+         tuning::tile_threads},
+        n, ids, shaders);
   }
 }
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/warp.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade::detail {
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// A sorted tile cut into rows of at most 32 requests of one shader, in shared memory.
 template <class Sort>
@@ -67,4 +69,5 @@ class tile_rows {
   std::uint16_t first_row_[shaders];
 };
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

@@ -5,12 +5,14 @@
 #include <cub/block/block_radix_rank.cuh>
 #include <type_traits>
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/load_keys.hpp>
 #include <deferred_shade/detail/cuda/rank_in_warp.hpp>
 #include <deferred_shade/detail/cuda/warp.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade::detail {
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// A stable counting sort of a tile of `Threads * Items` requests by one thread block, by the
 /// shaders that they name; those that name none go to the end. A warp owns neighbouring requests
@@ -103,4 +105,5 @@ class tile_sort {
   };
 };
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

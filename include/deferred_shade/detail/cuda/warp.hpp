@@ -2,17 +2,57 @@
 #pragma once
 
 #include <cstdint>
+#include <cub/config.cuh>
+
+#include <deferred_shade/detail/cuda/architectures.hpp>
+#include <deferred_shade/detail/cuda/tuning.hpp>
 
 namespace deferred_shade::detail {
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
+
+namespace cub = CUB_NS_QUALIFIER;  // as thrust: see detail/system.hpp
 
 inline constexpr unsigned all_lanes = 0xffffffffU;
-inline constexpr std::uint32_t warp_size = 32;
 
 /// The bits that hold the numbers 0 to `largest`.
 __host__ __device__ constexpr int bits_for(std::uint32_t largest) {
   int bits = 0;
   for (; largest != 0; largest >>= 1) ++bits;
   return bits;
+}
+
+/// The sum of `value` over all lanes of the warp, which all take part.
+__device__ inline std::uint32_t sum_of_warp(std::uint32_t value) {
+#if __CUDA_ARCH__ >= 800
+  return __reduce_add_sync(all_lanes, value);
+#else
+#pragma unroll
+  for (int distance = static_cast<int>(warp_size) / 2; distance > 0; distance /= 2) {
+    value += __shfl_xor_sync(all_lanes, value, distance);
+  }
+  return value;
+#endif
+}
+
+/// The threads that a multiprocessor holds at a time, of the architecture that is compiled for.
+__host__ __device__ constexpr std::uint32_t resident_threads() {
+#ifndef __CUDA_ARCH__
+  return 1024;  // asked for kernels alone
+#elif __CUDA_ARCH__ == 800 || __CUDA_ARCH__ == 900 || __CUDA_ARCH__ == 1000 || __CUDA_ARCH__ == 1030
+  return 2048;
+#elif __CUDA_ARCH__ == 860 || __CUDA_ARCH__ == 870 || __CUDA_ARCH__ == 890 || \
+    __CUDA_ARCH__ == 1100 || __CUDA_ARCH__ == 1200 || __CUDA_ARCH__ == 1210
+  return 1536;
+#else
+  return 1024;  // 7.5, and those that are not known here: every one holds as many
+#endif
+}
+
+/// For a launch bound: `wanted` blocks of a multiprocessor, or as many as it holds.
+__host__ __device__ constexpr unsigned blocks_that_fit(std::uint32_t wanted,
+                                                       std::uint32_t threads) {
+  std::uint32_t const held = resident_threads() / threads;
+  return wanted < held ? wanted : held;
 }
 
 /// The sum of `value` over the lanes below this one. All lanes of the warp take part.
@@ -34,4 +74,5 @@ __device__ inline std::uint32_t exclusive_sum_of_warp(std::uint32_t value) {
   return sum - value;
 }
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

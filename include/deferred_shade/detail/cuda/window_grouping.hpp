@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
 #include <deferred_shade/detail/cuda/small_bucket.hpp>
+#include <deferred_shade/detail/cuda/tuning.hpp>
 #include <deferred_shade/detail/cuda/warp.hpp>
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
@@ -15,9 +17,7 @@
 // depends on no other window, so that there is no scan: a tile adds up the counts of its window.
 
 namespace deferred_shade::detail {
-
-inline constexpr std::uint32_t window_tiles = 32;
-inline constexpr std::uint32_t window_size = window_tiles * bucket_tile;
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// The requests of a batch, sorted by shader inside each window: a view of memory of a workspace.
 struct window_grouping {
@@ -95,4 +95,5 @@ window_grouping group_windows(cudaStream_t stream, Count n, Ids ids, Workspace& 
   return {sorted, used};
 }
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <deferred_shade/detail/cuda/architectures.hpp>
+#include <deferred_shade/detail/cuda/call.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
 #include <deferred_shade/detail/cuda/occupancy.hpp>
 #include <deferred_shade/detail/cuda/tile_sort.hpp>
@@ -11,23 +13,16 @@
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade::detail {
-
-/// The largest table whose index shaders run in packed tiles: with more, a tile as small as those
-/// has less than a warp's worth of requests of each.
-inline constexpr shader_id most_packed_shaders = 8;
-
-inline constexpr std::uint32_t packed_threads = 256;
-
-/// What a tile has for each thread where it takes more than one.
-inline constexpr std::uint32_t packed_items = 4;
+inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
 /// Sorts one tile and runs the switch over it, shader next to shader: warps diverge where one ends
 /// and the next begins, and nowhere else.
-template <std::uint32_t Items, class Count, class Ids, class... Shaders>
-__global__ void __launch_bounds__(packed_threads)
-    packed_kernel(Count n, Ids ids, shader_table<Shaders...> const __grid_constant__ shaders) {
-  using sort = tile_sort<sizeof...(Shaders), packed_threads, Items>;
-  static_assert((sizeof...(Shaders) + 1) * sort::size <= 0x10000, "an entry has 16 bits");
+template <std::uint32_t Threads, std::uint32_t Items, class Count, class Ids, class... Shaders>
+__global__ void __launch_bounds__(Threads)
+    dense_kernel(Count n, Ids ids, shader_table<Shaders...> const __grid_constant__ shaders) {
+  using sort = tile_sort<sizeof...(Shaders), Threads, Items>;
+  static_assert((sizeof...(Shaders) + 1) * sort::size <= 0x10000,
+                "tuning::tile: a dense tile has entries of 16 bits, for 63 shaders");
   __shared__ typename sort::temporary_storage temporary;
   __shared__ std::uint32_t starts[sort::columns];
   __shared__ std::uint16_t order[sort::size];  // shaders and positions
@@ -50,34 +45,37 @@ __global__ void __launch_bounds__(packed_threads)
   __syncthreads();
 #pragma unroll 1
   for (std::uint32_t item = 0; item < Items; ++item) {
-    std::uint32_t const entry = order[item * packed_threads + threadIdx.x];
-    shaders.run(entry / sort::size, first + entry % sort::size);
+    std::uint32_t const entry = order[item * Threads + threadIdx.x];
+    shaders.visit(entry / sort::size, run_on_device{first + entry % sort::size});
   }
 }
 
-template <std::uint32_t Items, class Policy, class Count, class Ids, class... Shaders>
-void launch_packed(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders) {
-  launch<&packed_kernel<Items, Count, Ids, Shaders...>>(
+template <class Tuning, std::uint32_t Items, class Policy, class Count, class Ids, class... Shaders>
+void launch_dense(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders) {
+  launch<&dense_kernel<Tuning::dense_threads, Items, Count, Ids, Shaders...>>(
       "local_sort_then_dispatch", stream_of(exec),
-      {blocks_for(maximum_of(n), packed_threads * Items), packed_threads}, n, ids, shaders);
+      {blocks_for(maximum_of(n), Tuning::dense_threads * Items), Tuning::dense_threads}, n, ids,
+      shaders);
 }
 
 // What a request leaves over of the memory that is read or written for it waits in the second-level
 // cache for its neighbours in the tile. With one request for each thread, no more of them are under
 // way than in a plain switch, and the cache has room. Several for each thread fill warps better,
 // and are taken where the batch is so small that it is under way as a whole then.
-template <class Policy, class Count, class Ids, class... Shaders>
-void run_packed_tiles(Policy const& exec, Count n, Ids ids,
-                      shader_table<Shaders...> const& shaders) {
+template <class Tuning, class Policy, class Count, class Ids, class... Shaders>
+void run_dense_tiles(Policy const& exec, Count n, Ids ids,
+                     shader_table<Shaders...> const& shaders) {
   std::size_t const maximum = maximum_of(n);
-  auto const occupancy =
-      occupancy_of<&packed_kernel<packed_items, Count, Ids, Shaders...>>(packed_threads);
-  std::size_t const threads = occupancy.resident_blocks * packed_threads;
-  if (threads < maximum && maximum <= threads * packed_items) {
-    launch_packed<packed_items>(exec, n, ids, shaders);
+  auto const occupancy = occupancy_of<
+      &dense_kernel<Tuning::dense_threads, Tuning::dense_items, Count, Ids, Shaders...>>(
+      Tuning::dense_threads);
+  std::size_t const threads = occupancy.resident_blocks * Tuning::dense_threads;
+  if (threads < maximum && maximum <= threads * Tuning::dense_items) {
+    launch_dense<Tuning, Tuning::dense_items>(exec, n, ids, shaders);
   } else {
-    launch_packed<1>(exec, n, ids, shaders);
+    launch_dense<Tuning, 1>(exec, n, ids, shaders);
   }
 }
 
+}  // namespace DEFERRED_SHADE_ARCHITECTURES
 }  // namespace deferred_shade::detail
