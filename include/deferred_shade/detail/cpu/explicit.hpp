@@ -26,7 +26,7 @@ void run_explicit(host_system, Policy const& exec, request_index n, Ids ids,
     thrust::for_each_n(exec, thrust::counting_iterator<request_index>(0), std::size_t{n},
                        [ids, &shader](request_index i) {
                          if (detail::shader_of(ids, i, sizeof...(Shaders)) == decltype(id)::value)
-                           shader(i);
+                           static_cast<void>(shader(i));
                        });
   });
 }
@@ -62,7 +62,7 @@ void run_explicit(host_system, Policy const& exec, grouping group,
                          });
     } else {
       thrust::for_each_n(exec, group.permutation + begin, size,
-                         [&shader](request_index i) { shader(i); });
+                         [&shader](request_index i) { static_cast<void>(shader(i)); });
     }
   });
 }

@@ -108,7 +108,7 @@ void run_segment(Shader const& shader, std::size_t count, IndexOf index_of, Ahea
   } else {
     for (std::size_t j = 0; j < count; ++j) {
       ahead(j);
-      shader(index_of(j));
+      static_cast<void>(shader(index_of(j)));
     }
   }
 }

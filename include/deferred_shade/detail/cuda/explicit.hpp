@@ -21,7 +21,7 @@ __global__ void masked_kernel(bool first, Count n, Ids ids, Shader const __grid_
   independent_kernel const among_those_of_all_shaders(first);
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   auto const i = static_cast<request_index>(p);
-  if (p < size_of(n) && detail::shader_of(ids, i, Shaders) == Id) shader(i);
+  if (p < size_of(n) && detail::shader_of(ids, i, Shaders) == Id) static_cast<void>(shader(i));
 }
 
 /// Runs one shader on its segment. The grid does not know how long that is: a block takes one
@@ -33,7 +33,7 @@ __global__ void segment_kernel(bool first, request_index const* permutation,
   std::size_t const end = offset[1];
   std::size_t const stride = std::size_t{gridDim.x} * blockDim.x;
   std::size_t p = offset[0] + std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
-  for (; p < end; p += stride) shader(permutation[p]);
+  for (; p < end; p += stride) static_cast<void>(shader(permutation[p]));
 }
 
 template <class Policy, class Count, class Ids, class... Shaders, class Workspace>

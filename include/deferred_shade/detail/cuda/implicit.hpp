@@ -8,6 +8,7 @@
 #include <cstring>
 #include <new>
 
+#include <deferred_shade/detail/bits.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
 #include <deferred_shade/detail/cuda/staging.hpp>
 #include <deferred_shade/detail/system.hpp>
@@ -52,9 +53,11 @@ __global__ void records_kernel(Count n, Ids ids,
   };
   alignas(request) unsigned char in[sizeof(request)];
   alignas(result) unsigned char out[sizeof(result)];
-  at_place([&](auto const& shader) { new (in) request(detail::load(shader.source, i)); });
+  at_place([&](auto const& shader) {
+    ::new (static_cast<void*>(in)) request(detail::load(shader.source, i));
+  });
   shaders.visit(id, [&](auto const& shader) {
-    new (out) result(shader.function(*reinterpret_cast<request const*>(in)));
+    ::new (static_cast<void*>(out)) result(shader.function(*reinterpret_cast<request const*>(in)));
   });
   at_place([&](auto const& shader) {
     detail::store(shader.sink, i, *reinterpret_cast<result const*>(out));
@@ -85,7 +88,8 @@ inline constexpr std::uint32_t index_switch_threads = sizeof...(Shaders) <= 8 ? 
 template <class... Shaders>
 bool have_one_place(shader_table<Shaders...> const& shaders) {
   auto const same = [](auto const& a, auto const& b) {
-    return std::memcmp(&a, &b, sizeof(a)) == 0;  // for all their types may lack a comparison
+    return std::memcmp(detail::address_of(a), detail::address_of(b), sizeof(a)) ==
+           0;  // for all their types may lack a comparison
   };
   auto const& first = shaders.template get<0>();
   bool result = true;

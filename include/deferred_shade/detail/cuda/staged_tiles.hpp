@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include <deferred_shade/detail/bits.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
 #include <deferred_shade/detail/cuda/staging.hpp>
 #include <deferred_shade/detail/cuda/tile_rows.hpp>
@@ -69,8 +70,9 @@ __global__ void __launch_bounds__(staged_threads<Shaders...>)
   }
   if (threadIdx.x == 0) {
     shaders.for_each([&](auto id, auto const& shader) {
-      std::memcpy(sources[decltype(id)::value], &shader.source, sizeof(shader.source));
-      std::memcpy(sinks[decltype(id)::value], &shader.sink, sizeof(shader.sink));
+      std::memcpy(sources[decltype(id)::value], detail::address_of(shader.source),
+                  sizeof(shader.source));
+      std::memcpy(sinks[decltype(id)::value], detail::address_of(shader.sink), sizeof(shader.sink));
     });
   }
   std::uint32_t keys[Items];
