@@ -116,7 +116,7 @@ void efficiency_of_groups(Policy const& exec, std::size_t size, Ids const& ids,
     for (std::size_t first = blocks.begin(b); first < blocks.end(b); first += model.width) {
       std::size_t const group = first / model.width;
       double useful = 0, held = 0;
-      for (std::size_t i = first; i < std::min(size, first + model.width); ++i) {
+      for (std::size_t i = first; i < (std::min)(size, first + model.width); ++i) {
         shader_id const k = detail::shader_of(ids, static_cast<request_index>(i), model.shaders);
         if (k == model.shaders) continue;
         useful += model.costs[k];

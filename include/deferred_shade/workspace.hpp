@@ -103,7 +103,7 @@ class workspace {
     using standard = std::allocator<typename Allocator::value_type>;
     constexpr std::size_t for_device = std::is_same_v<Allocator, standard> ? 0 : 3 << 20;
     // Larger tables have fewer blocks: their counters are at most n / 16 and one row, nearly.
-    std::size_t const few = std::min(shaders, std::size_t{1023});
+    std::size_t const few = (std::min)(shaders, std::size_t{1023});
     std::size_t const counters = (detail::block_partition::max_count(n, 0) + 1) * (few + 2) +
                                  (shaders > few ? n / 16 + 2 * shaders + 4 : 0);
     return (n + sizeof(line)) * per_request + counters * sizeof(request_index) + 6 * sizeof(line) +

@@ -22,20 +22,20 @@ class block_partition {
  public:
   constexpr block_partition(std::size_t n, std::size_t shaders, std::size_t granule = 64) noexcept
       : n_(n),
-        size_(multiple_of(granule, std::max(least_size(shaders), (n + 1023) / 1024))),
+        size_(multiple_of(granule, (std::max)(least_size(shaders), (n + 1023) / 1024))),
         count_((n + size_ - 1) / size_) {}
 
   /// A bound of count(), for any granule, that does not fall when n grows: what to allocate for.
   static constexpr std::size_t max_count(std::size_t n, std::size_t shaders) noexcept {
     std::size_t const least = least_size(shaders);
-    return std::min(std::size_t{1024}, (n + least - 1) / least);
+    return (std::min)(std::size_t{1024}, (n + least - 1) / least);
   }
 
   constexpr std::size_t size() const noexcept { return size_; }
   constexpr std::size_t count() const noexcept { return count_; }
   constexpr std::size_t begin(std::size_t block) const noexcept { return block * size_; }
   constexpr std::size_t end(std::size_t block) const noexcept {
-    return std::min(n_, (block + 1) * size_);
+    return (std::min)(n_, (block + 1) * size_);
   }
 
  private:
@@ -43,7 +43,7 @@ class block_partition {
     return (x + granule - 1) / granule * granule;
   }
   static constexpr std::size_t least_size(std::size_t shaders) noexcept {
-    return multiple_of(64, std::max(std::size_t{16384}, 16 * (shaders + 1)));
+    return multiple_of(64, (std::max)(std::size_t{16384}, 16 * (shaders + 1)));
   }
 
   std::size_t n_;

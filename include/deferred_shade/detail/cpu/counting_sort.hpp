@@ -124,7 +124,7 @@ class key_counts {
     constexpr std::uint32_t width = sizeof(byte_vector), together = 4;  // shaders to a load of keys
     request_index i = 0;
     while (size - i >= width) {
-      request_index const rows = std::min((size - i) / width, request_index{255});
+      request_index const rows = (std::min)((size - i) / width, request_index{255});
       counts_of[Shaders] += rows * width;  // less those that are a shader's
       for (shader_id k = 0; k < Shaders; k += together) {
         byte_vector counts[together] = {};
@@ -163,7 +163,8 @@ bool are_same(Key const* keys) {
 template <class Key>
 request_index quarters_same(Key const* keys, request_index size) {
   request_index looks = 0, same = 0;
-  for (request_index i = 0; size - i >= key_step; ++looks, i += std::min(size - i, 8 * key_step)) {
+  for (request_index i = 0; size - i >= key_step;
+       ++looks, i += (std::min)(size - i, 8 * key_step)) {
     same += are_same(keys + i);
   }
   return looks == 0 ? 0 : 4 * same / looks;

@@ -50,7 +50,7 @@ void run_explicit(host_system, Policy const& exec, grouping group,
                          (size + chunk - 1) / chunk,
                          [&shader, segment, size, chunk](std::uint32_t c) {
                            std::size_t const from = c * chunk;
-                           std::size_t const count = std::min(chunk, size - from);
+                           std::size_t const count = (std::min)(chunk, size - from);
                            // What comes next is prefetched: the next chunk, mostly the same
                            // worker's.
                            run_segment(

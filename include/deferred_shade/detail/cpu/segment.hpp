@@ -44,11 +44,11 @@ inline constexpr bool is_packable<record_shader<Source, Function, Sink>> =
 /// The requests of a shader that are packed at a time: up to 256, and as many as take, with their
 /// results, at most 16 KiB of the first-level cache.
 template <class Shader>
-inline constexpr std::size_t packed_lanes = std::min(std::size_t{256},
-                                                     16384 /
-                                                         (sizeof(typename Shader::request_type) +
-                                                          sizeof(typename Shader::result_type)) /
-                                                         16 * 16);
+inline constexpr std::size_t packed_lanes = (std::min)(std::size_t{256},
+                                                       16384 /
+                                                           (sizeof(typename Shader::request_type) +
+                                                            sizeof(typename Shader::result_type)) /
+                                                           16 * 16);
 
 /// Brings request i and the place of its result near to this core, where `shader` is a record
 /// shader.
@@ -101,7 +101,7 @@ void run_segment(Shader const& shader, std::size_t count, IndexOf index_of, Ahea
   if constexpr (is_packable<Shader>) {
     for (std::size_t begin = 0; begin < count; begin += packed_lanes<Shader>) {
       run_packed(
-          shader, std::min(packed_lanes<Shader>, count - begin),
+          shader, (std::min)(packed_lanes<Shader>, count - begin),
           [=](std::size_t j) { return index_of(begin + j); },
           [=](std::size_t j) { ahead(begin + j); });
     }

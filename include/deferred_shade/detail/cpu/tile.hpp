@@ -24,7 +24,7 @@ void for_each_tile(Policy const& exec, request_index n, Function f) {
   thrust::for_each_n(exec, thrust::counting_iterator<request_index>(0), tiles,
                      [n, f](request_index t) {
                        request_index const first = t * Tile;
-                       f(first, std::min(Tile, n - first));
+                       f(first, (std::min)(Tile, n - first));
                      });
 }
 
@@ -133,8 +133,8 @@ void bitonic_sort(std::uint32_t (&keys)[Size]) {
       for (std::size_t base = 0; base < Size; base += 2 * distance) {
         bool const ascending = (base & run) == 0;
         for (std::size_t i = base; i < base + distance; ++i) {
-          std::uint32_t const low = std::min(keys[i], keys[i + distance]);
-          std::uint32_t const high = std::max(keys[i], keys[i + distance]);
+          std::uint32_t const low = (std::min)(keys[i], keys[i + distance]);
+          std::uint32_t const high = (std::max)(keys[i], keys[i + distance]);
           keys[i] = ascending ? low : high;
           keys[i + distance] = ascending ? high : low;
         }

@@ -69,7 +69,7 @@ void run_explicit(cuda_system, Policy const& exec, grouping group,
     // Enough for an equal share of the requests, and to fill the device if one shader has them all.
     std::size_t const share = blocks_for(group.maximum / expected.count(), threads);
     std::size_t const blocks =
-        std::min(blocks_for(group.maximum, threads), std::max(resident, share));
+        (std::min)(blocks_for(group.maximum, threads), (std::max)(resident, share));
     launch<kernel>("explicit_serialization", stream, {blocks, threads}, std::exchange(first, false),
                    group.permutation, group.offsets + id, shader);
   });

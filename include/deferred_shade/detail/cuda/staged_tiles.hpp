@@ -55,7 +55,7 @@ __global__ void __launch_bounds__(staged_threads<Shaders...>)
   std::size_t const end = size_of(n);
   if (tile >= end) return;
   auto const first = static_cast<request_index>(tile);
-  auto const size = static_cast<std::uint32_t>(min(std::size_t{sort::size}, end - tile));
+  auto const size = static_cast<std::uint32_t>((min)(std::size_t{sort::size}, end - tile));
 
   if constexpr (records::copies_words) {
     if (one_source) {

@@ -40,7 +40,7 @@ __global__ void __launch_bounds__(tile_threads)
   std::size_t const end = size_of(n);
   if (tile >= end) return;
   auto const first = static_cast<request_index>(tile);
-  auto const size = static_cast<std::uint32_t>(min(std::size_t{sort::size}, end - tile));
+  auto const size = static_cast<std::uint32_t>((min)(std::size_t{sort::size}, end - tile));
 
   std::uint32_t keys[tile_items];
   std::uint32_t places[tile_items];
@@ -90,7 +90,7 @@ __global__ void __launch_bounds__(bitonic::tile)
       }
       bool const ascending = (t & run) == 0;
       bool const lower = (t & distance) == 0;
-      key = ascending == lower ? min(key, other) : max(key, other);
+      key = ascending == lower ? (min)(key, other) : (max)(key, other);
     }
   }
   if (key != 0xffffffffU) shaders.run(key / bitonic::tile, first + key % bitonic::tile);
