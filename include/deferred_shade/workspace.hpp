@@ -14,6 +14,7 @@
 #include <utility>
 
 #include <deferred_shade/detail/cpu/block_partition.hpp>
+#include <deferred_shade/detail/fail.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/types.hpp>
 #ifdef __CUDACC__
@@ -31,8 +32,8 @@ struct elements {
   static_assert(alignof(T) <= 128, "a workspace aligns to 128 bytes");
   explicit elements(std::size_t n) : count(n) {
     if (n > static_cast<std::size_t>(-1) / 16 / sizeof(T)) {
-      throw std::length_error("deferred_shade::elements: an array of " + std::to_string(n) +
-                              " elements has no room in memory");
+      detail::fail<std::length_error>("deferred_shade::elements: an array of " + std::to_string(n) +
+                                      " elements has no room in memory");
     }
   }
   std::size_t count;
@@ -85,9 +86,9 @@ class workspace {
   /// allocator throws.
   void reserve(std::size_t n, std::size_t shaders) {
     if (n > max_requests || shaders > max_requests) {
-      throw std::length_error("deferred_shade::workspace::reserve: n is " + std::to_string(n) +
-                              " and shaders is " + std::to_string(shaders) + ", at most " +
-                              std::to_string(max_requests) + " are possible");
+      detail::fail<std::length_error>(
+          "deferred_shade::workspace::reserve: n is " + std::to_string(n) + " and shaders is " +
+          std::to_string(shaders) + ", at most " + std::to_string(max_requests) + " are possible");
     }
     grow(bytes_for(n, shaders));
   }
