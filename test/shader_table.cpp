@@ -130,6 +130,24 @@ TEST_CASE("only keeps ids, and makes no code for the shaders that it leaves out"
   STATIC_REQUIRE(decltype(some.only<17>())::first_id() == 17);
 }
 
+namespace {
+
+template <class Table, std::uint32_t... Ids>
+auto first_of(Table const& table, std::integer_sequence<std::uint32_t, Ids...>) {
+  return table.template only<Ids...>();
+}
+
+}  // namespace
+
+TEST_CASE("only takes more than 256 ids", "[shader_table]") {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> runs;
+  auto const all = table_of(runs, std::make_integer_sequence<std::uint32_t, 320>());
+  auto const some = first_of(all, std::make_integer_sequence<std::uint32_t, 300>());
+  some.run(299, 1);
+  some.run(300, 2);
+  CHECK(runs == std::vector<std::pair<std::uint32_t, std::uint32_t>>{{299, 1}});
+}
+
 TEST_CASE("a table says which shaders may occur", "[shader_table]") {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> runs;
   auto const all = table_of(runs, std::make_integer_sequence<std::uint32_t, 70>());

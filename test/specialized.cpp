@@ -82,6 +82,12 @@ TEST_CASE("the smallest variant that covers a scene is chosen", "[specialized]")
   CHECK(some::covering(set_of({0, 1, 2, 3, 4, 5})) == some::count);
 }
 
+TEST_CASE("a variant that lists a shader twice has it once", "[specialized]") {
+  using repeated = ds::variants<ds::ids<0, 1, 2>, ds::ids<0, 0, 1, 1>>;
+  CHECK(repeated::covering(set_of({0, 1})) == 1);
+  CHECK(repeated::covering(set_of({0, 1, 2})) == 0);
+}
+
 TEMPLATE_LIST_TEST_CASE("every schedule runs a part of a table, and leaves the rest alone",
                         "[specialized]", test::backends) {
   for_each_kind([](auto const& schedule) {

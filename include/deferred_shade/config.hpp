@@ -30,3 +30,11 @@
 #else
 #define DEFERRED_SHADE_HAS_GNU 0
 #endif
+
+/// Whether the compiler of this code has exceptions. Without them, an error ends the program: see
+/// detail/fail.hpp.
+#if defined(__cpp_exceptions) || defined(__EXCEPTIONS) || defined(_CPPUNWIND)
+#define DEFERRED_SHADE_HAS_EXCEPTIONS 1
+#else
+#define DEFERRED_SHADE_HAS_EXCEPTIONS 0
+#endif

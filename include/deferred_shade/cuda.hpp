@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string>
 
+#include <deferred_shade/detail/fail.hpp>
+
 namespace deferred_shade {
 
 /// What is thrown where a call of the CUDA runtime fails; the message says what was being done.
@@ -32,7 +34,7 @@ namespace detail {
 inline void check_cuda(cudaError_t status, char const* doing) {
   if (status == cudaSuccess) return;
   cudaGetLastError();  // else the next call would report it again
-  throw cuda_error(status, doing);
+  fail<cuda_error>(status, doing);
 }
 
 /// Before a call of CUB, which would take what the renderer left there for an error of its own.
@@ -56,7 +58,7 @@ struct cuda_allocator {
   cuda_allocator(cuda_allocator<U> const&) noexcept {}
 
   T* allocate(std::size_t n) {
-    if (n > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_array_new_length();
+    if (n > static_cast<std::size_t>(-1) / sizeof(T)) detail::fail<std::bad_array_new_length>();
     int device = 0;
     detail::check_cuda(cudaGetDevice(&device), "looking for a CUDA device");
     void* memory = nullptr;

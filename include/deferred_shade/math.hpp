@@ -21,8 +21,8 @@ namespace detail {
 
 inline constexpr float infinity = std::numeric_limits<float>::infinity();
 inline constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-inline constexpr float least_normal = std::numeric_limits<float>::min();
-inline constexpr float largest = std::numeric_limits<float>::max();
+inline constexpr float least_normal = (std::numeric_limits<float>::min)();
+inline constexpr float largest = (std::numeric_limits<float>::max)();
 
 /// 2 to the power of n, which is -126 to 127.
 DEFERRED_SHADE_HOST_DEVICE inline float power_of_two(std::int32_t n) {

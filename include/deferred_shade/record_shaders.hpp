@@ -26,9 +26,9 @@ DEFERRED_SHADE_EXEC_CHECK_DISABLE
 template <class Sink, class Result>
 DEFERRED_SHADE_HOST_DEVICE void store(Sink const& sink, request_index i, Result const& result) {
   if constexpr (std::is_invocable_v<Sink const&, request_index, Result const&>) {
-    sink(i, result);
+    static_cast<void>(sink(i, result));
   } else {
-    sink[i] = result;
+    static_cast<void>(sink[i] = result);
   }
 }
 

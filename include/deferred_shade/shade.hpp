@@ -5,6 +5,7 @@
 #include <type_traits>
 
 #include <deferred_shade/detail/checked_count.hpp>
+#include <deferred_shade/detail/fail.hpp>
 #include <deferred_shade/detail/shader_subset.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/schedule.hpp>
@@ -72,7 +73,7 @@ void shade(Policy const& exec, Schedule const& schedule, Count n, Ids ids,
   if (detail::maximum_of(count) == 0) return;
   if constexpr (std::is_pointer_v<Ids>) {
     if (ids == nullptr) {
-      throw std::invalid_argument("deferred_shade::shade: ids is null, and n is not 0");
+      detail::fail<std::invalid_argument>("deferred_shade::shade: ids is null, and n is not 0");
     }
   }
   detail::run_schedule(system{}, schedule, exec, count, ids, shaders, scratch);

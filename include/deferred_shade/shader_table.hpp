@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bitset>
+#include <cstddef>
 #include <type_traits>
 #include <utility>
 
@@ -38,8 +39,30 @@ DEFERRED_SHADE_HOST_DEVICE constexpr Shader const& shader_in(
   return slot.shader;
 }
 
-template <shader_id Id, shader_id... Ids>
-inline constexpr bool is_among = ((Id == Ids) || ...);
+/// Which of the ids 0 to `Size` - 1 a list has, how many these are, and whether it has any other.
+/// By loops: clang limits folds to 256 operands.
+template <std::size_t Size>
+struct listed_ids {
+  bool has[Size] = {};
+  std::size_t count = 0;
+  bool fit = true;
+
+  template <shader_id... Ids>
+  static constexpr listed_ids of() {
+    listed_ids result;
+    shader_id const list[] = {Ids..., 0};
+    for (std::size_t j = 0; j < sizeof...(Ids); ++j) {
+      shader_id const id = list[j];
+      if (id >= Size) {
+        result.fit = false;
+      } else if (!result.has[id]) {
+        result.has[id] = true;
+        ++result.count;
+      }
+    }
+    return result;
+  }
+};
 
 }  // namespace detail
 
@@ -109,7 +132,8 @@ class shader_table {
   template <shader_id... Ids>
   constexpr auto only() const {
     static_assert(sizeof...(Ids) > 0, "a shader table holds at least one shader");
-    static_assert(((Ids < size()) && ...), "an id lies outside the table");
+    static_assert(detail::listed_ids<size()>::template of<Ids...>().fit,
+                  "an id lies outside the table");
     return only_among<Ids...>(std::make_integer_sequence<shader_id, size()>());
   }
 
@@ -209,9 +233,9 @@ class shader_table {
 
   template <shader_id... Ids, shader_id... All>
   constexpr auto only_among(std::integer_sequence<shader_id, All...>) const {
-    using table =
-        shader_table<std::conditional_t<detail::is_among<All, Ids...>, Shaders, no_shader>...>;
-    table result{get_if<All, detail::is_among<All, Ids...>>()...};
+    constexpr auto kept = detail::listed_ids<size()>::template of<Ids...>();
+    using table = shader_table<std::conditional_t<kept.has[All], Shaders, no_shader>...>;
+    table result{get_if<All, kept.has[All]>()...};
     result.absent_ = absent_;
     return result;
   }

@@ -17,11 +17,14 @@ template <class Variant>
 struct variant_traits;
 template <shader_id... Ids>
 struct variant_traits<ids<Ids...>> {
-  static constexpr std::size_t size = sizeof...(Ids);
+  /// The shaders of the variant, each counted once.
+  template <std::size_t Shaders>
+  static constexpr std::size_t size = listed_ids<Shaders>::template of<Ids...>().count;
 
   template <std::size_t Shaders>
   static bool covers(std::bitset<Shaders> occurring) {
-    static_assert(((Ids < Shaders) && ...), "a variant lists an id outside the table");
+    static_assert(listed_ids<Shaders>::template of<Ids...>().fit,
+                  "a variant lists an id outside the table");
     for (shader_id const id : {Ids...}) occurring.reset(id);
     return occurring.none();
   }
@@ -56,7 +59,7 @@ struct variants {
       ++number;
     };
     (consider(detail::variant_traits<Variants>::covers(occurring),
-              detail::variant_traits<Variants>::size),
+              detail::variant_traits<Variants>::template size<Shaders>),
      ...);
     return best;
   }

@@ -12,6 +12,7 @@
 
 #include <deferred_shade/detail/checked_count.hpp>
 #include <deferred_shade/detail/cpu/block_partition.hpp>
+#include <deferred_shade/detail/fail.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/types.hpp>
 #ifdef __CUDACC__
@@ -23,7 +24,8 @@ namespace detail {
 
 inline void check_width(std::string const& caller, std::uint32_t width) {
   if (width == 0) {
-    throw std::invalid_argument("deferred_shade::" + caller + ": a group of width 0 has no lanes");
+    detail::fail<std::invalid_argument>("deferred_shade::" + caller +
+                                        ": a group of width 0 has no lanes");
   }
 }
 
@@ -67,8 +69,8 @@ struct occurrences {
   template <shader_id Shaders>
   std::bitset<Shaders> occurring() const {
     if (groups.size() != Shaders) {
-      throw std::invalid_argument("deferred_shade::occurrences::occurring: " +
-                                  std::to_string(groups.size()) + " shaders were counted");
+      detail::fail<std::invalid_argument>("deferred_shade::occurrences::occurring: " +
+                                          std::to_string(groups.size()) + " shaders were counted");
     }
     std::bitset<Shaders> result;
     for (shader_id k = 0; k < Shaders; ++k) result[k] = requests[k] > 0;
@@ -116,7 +118,7 @@ void efficiency_of_groups(Policy const& exec, std::size_t size, Ids const& ids,
     for (std::size_t first = blocks.begin(b); first < blocks.end(b); first += model.width) {
       std::size_t const group = first / model.width;
       double useful = 0, held = 0;
-      for (std::size_t i = first; i < std::min(size, first + model.width); ++i) {
+      for (std::size_t i = first; i < (std::min)(size, first + model.width); ++i) {
         shader_id const k = detail::shader_of(ids, static_cast<request_index>(i), model.shaders);
         if (k == model.shaders) continue;
         useful += model.costs[k];

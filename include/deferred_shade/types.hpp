@@ -19,7 +19,7 @@ using request_index = std::uint32_t;
 using shader_id = std::uint32_t;
 
 /// The most requests that one batch can hold.
-inline constexpr std::size_t max_requests = std::numeric_limits<request_index>::max();
+inline constexpr std::size_t max_requests = (std::numeric_limits<request_index>::max)();
 
 /// A number of requests that lies in memory where `shade` runs: read when the batch runs, not when
 /// it is submitted. `maximum` is what the renderer guarantees; work space is sized by it. On CUDA,

@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <deferred_shade/detail/fail.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/types.hpp>
 #ifdef __CUDACC__
@@ -54,8 +55,8 @@ struct elements {
   static_assert(alignof(T) <= detail::workspace_alignment, "a workspace aligns to 128 bytes");
   explicit elements(std::size_t n) : count(n) {
     if (n > static_cast<std::size_t>(-1) / 16 / sizeof(T)) {
-      throw std::length_error("deferred_shade::elements: an array of " + std::to_string(n) +
-                              " elements has no room in memory");
+      detail::fail<std::length_error>("deferred_shade::elements: an array of " + std::to_string(n) +
+                                      " elements has no room in memory");
     }
   }
   std::size_t count;
@@ -109,9 +110,9 @@ class workspace {
   template <class Schedules = detail::every_schedule>
   void reserve(std::size_t n, std::size_t shaders) {
     if (n > max_requests || shaders > max_requests) {
-      throw std::length_error("deferred_shade::workspace::reserve: n is " + std::to_string(n) +
-                              " and shaders is " + std::to_string(shaders) + ", at most " +
-                              std::to_string(max_requests) + " are possible");
+      detail::fail<std::length_error>(
+          "deferred_shade::workspace::reserve: n is " + std::to_string(n) + " and shaders is " +
+          std::to_string(shaders) + ", at most " + std::to_string(max_requests) + " are possible");
     }
     reserve_bytes(bytes_for<Schedules>(n, shaders));
   }

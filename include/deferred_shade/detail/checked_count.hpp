@@ -5,6 +5,7 @@
 #include <string>
 #include <type_traits>
 
+#include <deferred_shade/detail/fail.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade::detail {
@@ -17,14 +18,15 @@ request_index checked_count(std::string const& caller, Integer n) {
                 "n is an integer or a device_count");
   if constexpr (std::is_signed_v<Integer>) {
     if (n < 0) {
-      throw std::invalid_argument("deferred_shade::" + caller + ": n is " + std::to_string(n) +
-                                  ", and a number of requests is not negative");
+      detail::fail<std::invalid_argument>("deferred_shade::" + caller + ": n is " +
+                                          std::to_string(n) +
+                                          ", and a number of requests is not negative");
     }
   }
   if (static_cast<std::make_unsigned_t<Integer>>(n) > max_requests) {
-    throw std::length_error("deferred_shade::" + caller + ": n is " + std::to_string(n) +
-                            ", and a batch holds at most " + std::to_string(max_requests) +
-                            " requests: their indices have 32 bits");
+    detail::fail<std::length_error>("deferred_shade::" + caller + ": n is " + std::to_string(n) +
+                                    ", and a batch holds at most " + std::to_string(max_requests) +
+                                    " requests: their indices have 32 bits");
   }
   return static_cast<request_index>(n);
 }
@@ -34,8 +36,8 @@ request_index checked_count(std::string const& caller, Integer n) {
 template <class Integer>
 request_index checked_maximum(std::string const& caller, device_count<Integer> n) {
   if (n.pointer == nullptr) {
-    throw std::invalid_argument("deferred_shade::" + caller +
-                                ": the pointer of device_count is null");
+    detail::fail<std::invalid_argument>("deferred_shade::" + caller +
+                                        ": the pointer of device_count is null");
   }
   return checked_count(caller, n.maximum);
 }
@@ -47,9 +49,9 @@ request_index checked_count(std::string const& caller, device_count<Integer> n) 
   request_index const maximum = checked_maximum(caller, n);
   request_index const count = checked_count(caller, *n.pointer);
   if (count > maximum) {
-    throw std::length_error("deferred_shade::" + caller + ": device_count points at " +
-                            std::to_string(count) + " requests, above its maximum of " +
-                            std::to_string(maximum));
+    detail::fail<std::length_error>("deferred_shade::" + caller + ": device_count points at " +
+                                    std::to_string(count) + " requests, above its maximum of " +
+                                    std::to_string(maximum));
   }
   return count;
 }

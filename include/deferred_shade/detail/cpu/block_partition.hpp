@@ -24,20 +24,20 @@ class block_partition {
   constexpr block_partition(std::size_t n, std::size_t shaders, std::size_t granule = 64) noexcept
       : n_(n),
         size_(multiple_of(granule,
-                          std::max(least_size(shaders), (n + most_blocks - 1) / most_blocks))),
+                          (std::max)(least_size(shaders), (n + most_blocks - 1) / most_blocks))),
         count_((n + size_ - 1) / size_) {}
 
   /// A bound of count(), for any granule, that does not fall when n grows: what to allocate for.
   static constexpr std::size_t max_count(std::size_t n, std::size_t shaders) noexcept {
     std::size_t const least = least_size(shaders);
-    return std::min(most_blocks, (n + least - 1) / least);
+    return (std::min)(most_blocks, (n + least - 1) / least);
   }
 
   /// A bound of max_count(n, s) * (s + 1), and of one row more, for any s up to `shaders`. Tables
   /// of more than 1023 shaders have larger blocks: their counters are at most n / 16 and one row,
   /// nearly.
   static constexpr std::size_t max_counters(std::size_t n, std::size_t shaders) noexcept {
-    std::size_t const few = std::min(shaders, least_block / requests_per_counter - 1);
+    std::size_t const few = (std::min)(shaders, least_block / requests_per_counter - 1);
     return (max_count(n, 0) + 1) * (few + 2) +
            (shaders > few ? n / requests_per_counter + 2 * shaders + 4 : 0);
   }
@@ -46,7 +46,7 @@ class block_partition {
   constexpr std::size_t count() const noexcept { return count_; }
   constexpr std::size_t begin(std::size_t block) const noexcept { return block * size_; }
   constexpr std::size_t end(std::size_t block) const noexcept {
-    return std::min(n_, (block + 1) * size_);
+    return (std::min)(n_, (block + 1) * size_);
   }
 
  private:
@@ -54,7 +54,7 @@ class block_partition {
     return (x + granule - 1) / granule * granule;
   }
   static constexpr std::size_t least_size(std::size_t shaders) noexcept {
-    return multiple_of(64, std::max(least_block, requests_per_counter * (shaders + 1)));
+    return multiple_of(64, (std::max)(least_block, requests_per_counter * (shaders + 1)));
   }
 
   std::size_t n_;

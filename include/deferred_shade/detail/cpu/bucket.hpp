@@ -21,7 +21,7 @@ void for_each_chunk(Ids const& ids, std::size_t begin, std::size_t end, Function
   sort_key<Shaders> keys[Chunk];
   for (std::size_t i = begin; i < end; i += Chunk) {
     auto const first = static_cast<request_index>(i);
-    auto const size = static_cast<request_index>(std::min(Chunk, end - i));
+    auto const size = static_cast<request_index>((std::min)(Chunk, end - i));
     load_keys<Shaders>(ids, first, size, keys);
     f(keys, first, size);
   }

@@ -128,7 +128,7 @@ class key_counts {
     constexpr std::uint32_t together = 4;  // shaders to a load of keys
     request_index i = 0;
     while (size - i >= width) {
-      request_index const rows = std::min((size - i) / width, request_index{255});
+      request_index const rows = (std::min)((size - i) / width, request_index{255});
       std::uint32_t named = 0;
       for (shader_id k = 0; k < Shaders; k += together) {
         byte_vector counts[together] = {};
@@ -168,7 +168,8 @@ bool are_same(Key const* keys) {
 template <class Key>
 request_index quarters_same(Key const* keys, request_index size) {
   request_index looks = 0, same = 0;
-  for (request_index i = 0; size - i >= key_step; ++looks, i += std::min(size - i, 8 * key_step)) {
+  for (request_index i = 0; size - i >= key_step;
+       ++looks, i += (std::min)(size - i, 8 * key_step)) {
     same += are_same(keys + i);
   }
   return looks == 0 ? 0 : 4 * same / looks;

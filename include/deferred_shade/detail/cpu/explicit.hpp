@@ -24,7 +24,9 @@ void run_explicit(host_system, Policy const& exec, request_index n, Ids ids,
     if (!expected[id]) return;
     [[maybe_unused]] auto const running = scratch.begin_phase({"shader", id});
     detail::for_each_request(exec, n, [ids, &shader](request_index i) {
-      if (detail::shader_of(ids, i, sizeof...(Shaders)) == decltype(id)::value) shader(i);
+      if (detail::shader_of(ids, i, sizeof...(Shaders)) == decltype(id)::value) {
+        static_cast<void>(shader(i));
+      }
     });
   });
 }
@@ -62,8 +64,9 @@ void run_explicit(host_system, Policy const& exec, grouping group,
     if constexpr (is_packable<type>) {
       detail::run_in_chunks(exec, shader, segment, size);
     } else {
-      detail::for_each_request(exec, size,
-                               [&shader, segment](request_index p) { shader(segment[p]); });
+      detail::for_each_request(exec, size, [&shader, segment](request_index p) {
+        static_cast<void>(shader(segment[p]));
+      });
     }
   });
 }

@@ -58,7 +58,8 @@ class lanes {
   void set(std::size_t lane, T record) noexcept { set(lane, bits_as<words>(record), each_word()); }
   /// The same from memory, for a loop that is not vectorised.
   void copy(std::size_t lane, T const& record) noexcept {
-    for (std::size_t word = 0; word < count; ++word) copy_word(word, &record, words_[word][lane]);
+    for (std::size_t word = 0; word < count; ++word)
+      copy_word(word, detail::address_of(record), words_[word][lane]);
   }
   /// Four records to `lane` and the lanes after it.
   void copy(std::size_t lane, T const& a, T const& b, T const& c, T const& d) noexcept {
@@ -75,10 +76,10 @@ class lanes {
 #endif
     if constexpr (shuffled < count) {  // g++ warns of a loop that it knows to be empty
       for (std::size_t word = shuffled; word < count; ++word) {
-        copy_word(word, &a, words_[word][lane]);
-        copy_word(word, &b, words_[word][lane + 1]);
-        copy_word(word, &c, words_[word][lane + 2]);
-        copy_word(word, &d, words_[word][lane + 3]);
+        copy_word(word, detail::address_of(a), words_[word][lane]);
+        copy_word(word, detail::address_of(b), words_[word][lane + 1]);
+        copy_word(word, detail::address_of(c), words_[word][lane + 2]);
+        copy_word(word, detail::address_of(d), words_[word][lane + 3]);
       }
     }
   }
@@ -95,7 +96,8 @@ class lanes {
 #if DEFERRED_SHADE_HAS_GNU
   static four_words words_of(T const& record, std::size_t first) noexcept {
     four_words words;
-    std::memcpy(&words, reinterpret_cast<unsigned char const*>(&record) + 4 * first, 16);
+    std::memcpy(&words,
+                reinterpret_cast<unsigned char const*>(detail::address_of(record)) + 4 * first, 16);
     return words;
   }
 #endif

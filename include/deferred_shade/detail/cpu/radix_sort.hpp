@@ -12,6 +12,7 @@
 
 #include <deferred_shade/detail/cpu/block_partition.hpp>
 #include <deferred_shade/detail/cpu/counting_sort.hpp>
+#include <deferred_shade/detail/fail.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
@@ -27,7 +28,7 @@ class arena {
 
   std::byte* allocate(std::size_t size) {
     std::size_t const aligned = (size + 15) / 16 * 16;
-    if (aligned > static_cast<std::size_t>(last_ - next_)) throw std::bad_alloc();
+    if (aligned > static_cast<std::size_t>(last_ - next_)) fail<std::bad_alloc>();
     return std::exchange(next_, next_ + aligned);
   }
   void deallocate(std::byte*, std::size_t) noexcept {}
@@ -51,6 +52,33 @@ constexpr std::size_t radix_bytes(host_system, std::size_t n, std::size_t shader
          array_bytes<request_index>(shaders + 1);
 }
 
+/// Sorts `size` keys stably, and their indices with them. `temporary` has room for as many pairs
+/// again, rounded up to a multiple of 64.
+template <class Key>
+void sort_pairs(Key* keys, request_index* indices, std::size_t size, std::byte* temporary) {
+  std::size_t const room = (size + 63) / 64 * 64;
+#if DEFERRED_SHADE_HAS_EXCEPTIONS
+  arena memory(temporary, room * (sizeof(Key) + sizeof(request_index)));
+  thrust::stable_sort_by_key(thrust::cpp::par(memory), keys, keys + size, indices);
+#else  // Thrust's sort throws, which does not compile: a counting sort for each byte
+  auto* const other_indices = reinterpret_cast<request_index*>(temporary);
+  auto* const other_keys = reinterpret_cast<Key*>(other_indices + room);
+  for (std::size_t byte = 0; byte < sizeof(Key); ++byte) {
+    auto const digit = [byte](Key key) { return key >> 8 * byte & 0xff; };
+    std::size_t next[257] = {};
+    for (std::size_t i = 0; i < size; ++i) ++next[digit(keys[i]) + 1];
+    std::partial_sum(next, next + 257, next);
+    for (std::size_t i = 0; i < size; ++i) {
+      std::size_t const place = next[digit(keys[i])]++;
+      other_keys[place] = keys[i];
+      other_indices[place] = indices[i];
+    }
+    std::copy_n(other_keys, size, keys);
+    std::copy_n(other_indices, size, indices);
+  }
+#endif
+}
+
 template <shader_id Shaders, class Policy, class Ids, class Workspace>
 grouping radix_grouping(host_system, Policy const& exec, request_index n, Ids ids,
                         Workspace& scratch) {
@@ -72,8 +100,7 @@ grouping radix_grouping(host_system, Policy const& exec, request_index n, Ids id
         key* const first = keys + begin;
         load_keys<Shaders>(ids_from(ids, static_cast<request_index>(begin)), size, first);
         std::iota(indices + begin, indices + begin + size, static_cast<request_index>(begin));
-        arena memory(temporary + begin * pair_size, (size + 63) / 64 * 64 * pair_size);
-        thrust::stable_sort_by_key(thrust::cpp::par(memory), first, first + size, indices + begin);
+        sort_pairs(first, indices + begin, size, temporary + begin * pair_size);
 
         std::uint32_t* const row = counts + b * columns;
         key const* run = first;

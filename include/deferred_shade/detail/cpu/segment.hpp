@@ -93,14 +93,14 @@ void run_segment(Shader const& shader, std::size_t count, IndexOf index_of, Ahea
   if constexpr (is_packable<Shader>) {
     for (std::size_t begin = 0; begin < count; begin += packed_lanes<Shader>) {
       run_packed(
-          shader, std::min(packed_lanes<Shader>, count - begin),
+          shader, (std::min)(packed_lanes<Shader>, count - begin),
           [=](std::size_t j) { return index_of(begin + j); },
           [=](std::size_t j) { ahead(begin + j); });
     }
   } else {
     for (std::size_t j = 0; j < count; ++j) {
       ahead(j);
-      shader(index_of(j));
+      static_cast<void>(shader(index_of(j)));
     }
   }
 }

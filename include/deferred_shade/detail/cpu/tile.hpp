@@ -107,8 +107,8 @@ void bitonic_sort(std::uint32_t (&keys)[Size]) {
       for (std::size_t base = 0; base < Size; base += 2 * distance) {
         bool const ascending = (base & run) == 0;
         for (std::size_t i = base; i < base + distance; ++i) {
-          std::uint32_t const low = std::min(keys[i], keys[i + distance]);
-          std::uint32_t const high = std::max(keys[i], keys[i + distance]);
+          std::uint32_t const low = (std::min)(keys[i], keys[i + distance]);
+          std::uint32_t const high = (std::max)(keys[i], keys[i + distance]);
           keys[i] = ascending ? low : high;
           keys[i + distance] = ascending ? high : low;
         }

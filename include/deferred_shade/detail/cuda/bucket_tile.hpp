@@ -22,9 +22,9 @@ struct tile_of_block {
   std::uint32_t size;
 
   __device__ explicit tile_of_block(request_index n) {
-    std::uint64_t const begin = min(std::uint64_t{n}, std::uint64_t{blockIdx.x} * bucket_tile);
+    std::uint64_t const begin = (min)(std::uint64_t{n}, std::uint64_t{blockIdx.x} * bucket_tile);
     first = static_cast<request_index>(begin);
-    size = min(bucket_tile, n - first);
+    size = (min)(bucket_tile, n - first);
   }
 
   /// The shaders of this thread's requests, 16 neighbours.
@@ -115,8 +115,8 @@ class tile_counts {
   }
 
  private:
-  static constexpr bool small = counts_in_registers(Shaders);
-  std::uint32_t memory_[small ? bucket_warps : words][small ? 8 : bucket_threads];
+  static constexpr bool in_registers = counts_in_registers(Shaders);
+  std::uint32_t memory_[in_registers ? bucket_warps : words][in_registers ? 8 : bucket_threads];
 };
 
 }  // namespace DEFERRED_SHADE_ARCHITECTURES

@@ -31,7 +31,7 @@ __global__ void __launch_bounds__(Threads)
   std::size_t const end = size_of(n);
   if (tile >= end) return;
   auto const first = static_cast<request_index>(tile);
-  auto const size = static_cast<std::uint32_t>(min(std::size_t{sort::size}, end - tile));
+  auto const size = static_cast<std::uint32_t>((min)(std::size_t{sort::size}, end - tile));
 
   std::uint32_t keys[Items];
   std::uint32_t places[Items];

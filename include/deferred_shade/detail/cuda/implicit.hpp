@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include <deferred_shade/detail/bits.hpp>
 #include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/call.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
@@ -83,7 +84,8 @@ __global__ void segments_kernel(request_index const* permutation, request_index 
 template <class... Shaders>
 bool have_one_place(shader_table<Shaders...> const& shaders) {
   auto const same = [](auto const& a, auto const& b) {
-    return std::memcmp(&a, &b, sizeof(a)) == 0;  // for all their types may lack a comparison
+    return std::memcmp(detail::address_of(a), detail::address_of(b), sizeof(a)) ==
+           0;  // for all their types may lack a comparison
   };
   auto const& first = shaders.template get<0>();
   bool result = true;

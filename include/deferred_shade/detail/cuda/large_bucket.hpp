@@ -89,7 +89,7 @@ __global__ void __launch_bounds__(bucket_threads,
 template <shader_id Shaders, class Count, class Ids, class Workspace>
 grouping large_bucket_grouping(cudaStream_t stream, Count n, Ids ids, Workspace& scratch) {
   std::size_t const maximum = maximum_of(n);
-  std::size_t const tiles = std::max(std::size_t{1}, (maximum + bucket_tile - 1) / bucket_tile);
+  std::size_t const tiles = (std::max)(std::size_t{1}, (maximum + bucket_tile - 1) / bucket_tile);
   auto const scan = [&](void* memory, std::size_t& bytes, std::uint32_t* counts) {
     check_cuda(
         cub::DeviceScan::ExclusiveSum(memory, bytes, counts, counts,

@@ -64,7 +64,7 @@ __device__ void load_neighbours(Ids const& ids, request_index first, std::uint32
             } else {
               key = static_cast<shader_id>(memory::made_of(ids, loaded[i]));
             }
-            keys[v * per_vector + i] = min(key, Shaders);
+            keys[v * per_vector + i] = (min)(key, Shaders);
           }
         }
         return;

@@ -55,7 +55,7 @@ __global__ void __launch_bounds__(bucket_threads,
   output.prepare(shared);
   __syncthreads();
   std::uint32_t const shift = output.place_of_lane(shared) - start;
-  std::uint32_t const left = used - min(used, threadIdx.x);
+  std::uint32_t const left = used - (min)(used, threadIdx.x);
 #pragma unroll
   for (std::uint32_t row = 0; row < bucket_items; ++row) {
     std::uint32_t const slot = sorted.at_row(row);
@@ -126,7 +126,7 @@ struct bucket_output {
 template <shader_id Shaders, class Count, class Ids, class Workspace>
 grouping small_bucket_grouping(cudaStream_t stream, Count n, Ids ids, Workspace& scratch) {
   std::size_t const maximum = maximum_of(n);
-  std::size_t const tiles = std::max(std::size_t{1}, blocks_for(maximum, bucket_tile));
+  std::size_t const tiles = (std::max)(std::size_t{1}, blocks_for(maximum, bucket_tile));
   auto const [permutation, counts, totals, offsets] =
       scratch.take(elements<request_index>(maximum), elements<std::uint32_t>(tiles * Shaders),
                    elements<std::uint32_t>(Shaders), elements<request_index>(Shaders + 1));

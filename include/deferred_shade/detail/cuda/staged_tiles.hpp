@@ -51,7 +51,7 @@ __global__ void __launch_bounds__(Threads)
   std::size_t const end = size_of(n);
   if (tile >= end) return;
   auto const first = static_cast<request_index>(tile);
-  auto const size = static_cast<std::uint32_t>(min(std::size_t{sort::size}, end - tile));
+  auto const size = static_cast<std::uint32_t>((min)(std::size_t{sort::size}, end - tile));
 
   if constexpr (records::copies_words) {
     if (one_source) {
@@ -66,8 +66,9 @@ __global__ void __launch_bounds__(Threads)
   }
   if (threadIdx.x == 0) {
     shaders.for_each([&](auto id, auto const& shader) {
-      std::memcpy(sources[decltype(id)::value], &shader.source, sizeof(shader.source));
-      std::memcpy(sinks[decltype(id)::value], &shader.sink, sizeof(shader.sink));
+      std::memcpy(sources[decltype(id)::value], detail::address_of(shader.source),
+                  sizeof(shader.source));
+      std::memcpy(sinks[decltype(id)::value], detail::address_of(shader.sink), sizeof(shader.sink));
     });
   }
   std::uint32_t keys[Items];

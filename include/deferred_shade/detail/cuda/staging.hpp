@@ -44,7 +44,7 @@ struct common_records<record_shader<Source, Functions, Sink>...> {
   using result = typename first_shader::result_type;
 
   /// The bytes of shared memory for a request, and in the same place for its result.
-  static constexpr std::size_t slot = (std::max(sizeof(request), sizeof(result)) + 15) / 16 * 16;
+  static constexpr std::size_t slot = ((std::max)(sizeof(request), sizeof(result)) + 15) / 16 * 16;
 
   static constexpr bool possible =
       !is_extended_lambda<Source> && !is_extended_lambda<Sink> &&

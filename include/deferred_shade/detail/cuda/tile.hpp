@@ -36,7 +36,7 @@ __global__ void __launch_bounds__(Threads)
   std::size_t const end = size_of(n);
   if (tile >= end) return;
   auto const first = static_cast<request_index>(tile);
-  auto const size = static_cast<std::uint32_t>(min(std::size_t{sort::size}, end - tile));
+  auto const size = static_cast<std::uint32_t>((min)(std::size_t{sort::size}, end - tile));
 
   std::uint32_t keys[Items];
   std::uint32_t places[Items];
@@ -87,7 +87,7 @@ __global__ void __launch_bounds__(bitonic::tile)
       }
       bool const ascending = (t & run) == 0;
       bool const lower = (t & distance) == 0;
-      key = ascending == lower ? min(key, other) : max(key, other);
+      key = ascending == lower ? (min)(key, other) : (max)(key, other);
     }
   }
   if (key != 0xffffffffU)

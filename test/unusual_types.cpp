@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shaders and records of types that C++ allows and few programs have, by every schedule on a CPU.
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <deferred_shade/deferred_shade.hpp>
+#include <memory>
+#include <vector>
+
+#include "catch.hpp"
+#include "support/backends.hpp"
+#include "support/every_schedule.hpp"
+#include "support/random_ids.hpp"
+
+namespace ds = deferred_shade;
+
+namespace {
+
+constexpr std::uint32_t several_tiles = 16385;
+
+/// In a build with warnings as errors, a schedule that drops the result does not compile.
+struct with_result {
+  std::uint32_t* out;
+  [[nodiscard]] std::uint32_t operator()(ds::request_index i) const { return out[i] = i + 1; }
+};
+
+/// A sink whose result must not be dropped either.
+struct checked_sink {
+  std::uint32_t* out;
+  [[nodiscard]] bool operator()(ds::request_index i, std::uint32_t result) const {
+    out[i] = result;
+    return true;
+  }
+};
+
+struct move_only {
+  std::unique_ptr<std::uint32_t> amount;
+  std::uint32_t* out;
+  void operator()(ds::request_index i) const { out[i] = i + *amount; }
+};
+
+struct move_only_function {
+  std::unique_ptr<std::uint32_t> amount;
+  std::uint32_t operator()(std::uint32_t request) const { return request + *amount; }
+};
+
+/// A record for which unary & is not the address.
+struct mask {
+  std::uint32_t bits;
+  std::uint32_t const* operator&() const {
+    static std::uint32_t const other = 0;
+    return &other;
+  }
+};
+struct next_mask {
+  mask operator()(mask const& m) const { return {m.bits + 1}; }
+};
+
+/// Runs `table` by every schedule; `out` must then
+/// be i + 1 for each request that names a shader, and untouched elsewhere.
+template <class Backend, class Table, class Value>
+void check_every_schedule(Table const& table, std::vector<Value>& out, Value untouched) {
+  auto const ids = test::make_ids<std::uint8_t>(test::layout::random, several_tiles, Table::size(),
+                                                test::run_seed());
+  ds::workspace scratch{Backend::policy()};
+  test::for_each_schedule([&](auto const& schedule) {
+    std::fill(out.begin(), out.end(), untouched);
+    ds::shade(Backend::policy(), schedule, several_tiles, ids.data(), table, scratch);
+    std::uint32_t wrong = 0;
+    for (std::uint32_t i = 0; i < several_tiles; ++i) {
+      std::uint32_t value = 0;
+      std::uint32_t before = 0;
+      std::memcpy(&value, std::addressof(out[i]), sizeof value);
+      std::memcpy(&before, std::addressof(untouched), sizeof before);
+      wrong += value != (ids[i] < Table::size() ? i + 1 : before);
+    }
+    CHECK(wrong == 0);
+  });
+}
+
+}  // namespace
+
+TEMPLATE_LIST_TEST_CASE("a shader's result may be one that must not be dropped", "[types]",
+                        test::host_backends) {
+  std::vector<std::uint32_t> out(several_tiles);
+  check_every_schedule<TestType>(ds::shader_table{with_result{out.data()}, with_result{out.data()}},
+                                 out, 77U);
+}
+
+TEMPLATE_LIST_TEST_CASE("a sink's result may be one that must not be dropped", "[types]",
+                        test::host_backends) {
+  std::vector<std::uint32_t> in(several_tiles);
+  std::vector<std::uint32_t> out(several_tiles);
+  for (std::uint32_t i = 0; i < several_tiles; ++i) in[i] = i;
+  auto const next = [](std::uint32_t request) { return request + 1; };
+  check_every_schedule<TestType>(
+      ds::record_shaders(in.data(), checked_sink{out.data()}, next, next), out, 77U);
+}
+
+TEMPLATE_LIST_TEST_CASE("shaders may be movable and not copyable", "[types]", test::host_backends) {
+  std::vector<std::uint32_t> out(several_tiles);
+  check_every_schedule<TestType>(
+      ds::shader_table{move_only{std::make_unique<std::uint32_t>(1U), out.data()},
+                       move_only{std::make_unique<std::uint32_t>(1U), out.data()}},
+      out, 77U);
+
+  std::vector<std::uint32_t> in(several_tiles);
+  for (std::uint32_t i = 0; i < several_tiles; ++i) in[i] = i;
+  check_every_schedule<TestType>(
+      ds::record_shaders(in.data(), out.data(),
+                         move_only_function{std::make_unique<std::uint32_t>(1U)},
+                         move_only_function{std::make_unique<std::uint32_t>(1U)}),
+      out, 77U);
+}
+
+TEMPLATE_LIST_TEST_CASE("shaders and records may be of types local to a function", "[types]",
+                        test::host_backends) {
+  struct local_record {
+    std::uint32_t word;
+  };
+  struct local_function {
+    local_record operator()(local_record r) const { return {r.word + 1}; }
+  };
+  struct local_shader {
+    std::uint32_t* out;
+    void operator()(ds::request_index i) const { out[i] = i + 1; }
+  };
+  std::vector<std::uint32_t> words(several_tiles);
+  check_every_schedule<TestType>(
+      ds::shader_table{local_shader{words.data()}, local_shader{words.data()}}, words, 77U);
+
+  std::vector<local_record> in(several_tiles);
+  std::vector<local_record> out(several_tiles);
+  for (std::uint32_t i = 0; i < several_tiles; ++i) in[i] = {i};
+  check_every_schedule<TestType>(
+      ds::record_shaders(in.data(), out.data(), local_function{}, local_function{}), out,
+      local_record{77U});
+}
+
+TEMPLATE_LIST_TEST_CASE("a record may overload unary &", "[types]", test::host_backends) {
+  std::vector<mask> in(several_tiles);
+  std::vector<mask> out(several_tiles);
+  for (std::uint32_t i = 0; i < several_tiles; ++i) in[i] = {i};
+  check_every_schedule<TestType>(
+      ds::record_shaders(in.data(), out.data(), next_mask{}, next_mask{}), out, mask{77U});
+}
