@@ -6,38 +6,11 @@
 #include <type_traits>
 #include <utility>
 
-#include <deferred_shade/config.hpp>
+#include <deferred_shade/detail/shader_list.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade {
 namespace detail {
-
-// A table has one base class per shader, and finds a shader by conversion to its base: unlike a
-// tuple, no fold or recursion over the pack limits its size or slows the compiler.
-template <shader_id Id, class Shader>
-struct table_slot {
-  static_assert(std::is_invocable_v<Shader const&, request_index>,
-                "a shader is called as shader(request_index) and its operator() is const");
-  Shader shader;
-};
-
-template <class Ids, class... Shaders>
-struct table_slots;
-template <shader_id... Ids, class... Shaders>
-struct table_slots<std::integer_sequence<shader_id, Ids...>, Shaders...>
-    : table_slot<Ids, Shaders>... {
-  constexpr explicit table_slots(Shaders... shaders)
-      : table_slot<Ids, Shaders>{std::move(shaders)}... {}
-};
-
-template <class... Shaders>
-using table_of = table_slots<std::make_integer_sequence<shader_id, sizeof...(Shaders)>, Shaders...>;
-
-template <shader_id Id, class Shader>
-DEFERRED_SHADE_HOST_DEVICE constexpr Shader const& shader_in(
-    table_slot<Id, Shader> const& slot) noexcept {
-  return slot.shader;
-}
 
 /// Which of the ids 0 to `Size` - 1 a list has, how many these are, and whether it has any other.
 /// By loops: clang limits folds to 256 operands.
@@ -70,11 +43,6 @@ struct listed_ids {
 template <shader_id... Ids>
 struct ids {};
 
-/// What stands in a table where shader_table::only has left out a shader: no code is made for it.
-struct no_shader {
-  DEFERRED_SHADE_HOST_DEVICE void operator()(request_index) const {}
-};
-
 /// The shaders that requests can name: the id of a shader is its position.
 ///
 /// A shader is a callable on a request's index, `void operator()(request_index) const`, that is
@@ -83,52 +51,25 @@ struct no_shader {
 ///
 ///     deferred_shade::shader_table shaders{matte{film, hits}, glass{film, hits}};
 template <class... Shaders>
-class shader_table {
+class shader_table : public detail::shader_list<Shaders...> {
+  using list = detail::shader_list<Shaders...>;
   static_assert(sizeof...(Shaders) > 0, "a shader table holds at least one shader");
 
  public:
-  constexpr explicit shader_table(Shaders... shaders) : shaders_(std::move(shaders)...) {}
+  constexpr explicit shader_table(Shaders... shaders) : list(std::move(shaders)...) {}
 
-  /// The number of shaders.
-  static constexpr shader_id size() noexcept { return static_cast<shader_id>(sizeof...(Shaders)); }
-
-  /// Whether there is a shader at position `Id`, or `only` has left it out.
-  template <shader_id Id>
-  static constexpr bool has = !std::is_same_v<
-      std::decay_t<decltype(detail::shader_in<Id>(std::declval<detail::table_of<Shaders...>>()))>,
-      no_shader>;
-
-  /// The lowest id that the table has a shader for.
-  DEFERRED_SHADE_HOST_DEVICE static constexpr shader_id first_id() noexcept {
-    constexpr bool present[] = {!std::is_same_v<Shaders, no_shader>...};
-    shader_id id = 0;
-    while (!present[id]) ++id;
-    return id;
-  }
-
-  /// The shader at position `Id`.
-  template <shader_id Id>
-  DEFERRED_SHADE_HOST_DEVICE constexpr auto const& get() const noexcept {
-    return detail::shader_in<Id>(shaders_);
-  }
-
-  /// Runs shader `id` on request `i`; does nothing where the table has no such shader.
-  DEFERRED_SHADE_EXEC_CHECK_DISABLE
-  DEFERRED_SHADE_HOST_DEVICE void run(shader_id id, request_index i) const {
-    visit(id, call_with{i});
-  }
-
-  /// Calls `f(shader)` for shader `id`; does nothing where the table has no such shader.
-  DEFERRED_SHADE_EXEC_CHECK_DISABLE
-  template <class Function>
-  DEFERRED_SHADE_HOST_DEVICE void visit(shader_id id, Function const& f) const {
-    visit_among<0, size()>(id, f);
-  }
+  using list::first_id;  ///< first_id(): the lowest id that the table has a shader for
+  using list::for_each;  ///< for_each(f): calls `f(id, shader)` for every shader in order
+  using list::get;       ///< get<Id>(): the shader at position `Id`
+  using list::has;       ///< has<Id>: whether there is one, or `only` has left it out
+  using list::run;       ///< run(id, i): runs shader `id` on request `i`, if there is one
+  using list::size;      ///< size(): the number of shaders
+  using list::visit;     ///< visit(id, f): calls `f(shader)` for shader `id`, if there is one
 
   /// The same table, with the same ids, without the shaders that `Ids` does not list. Requests that
   /// name one of those are left alone, as if the table had no such id, and no code is made for
   /// them: for a scene whose materials are known not to need them, a switch over fewer shaders that
-  /// takes fewer registers. See schedule/specialized.hpp for a choice at run time.
+  /// takes fewer registers. See specialized.hpp for a choice at run time.
   template <shader_id... Ids>
   constexpr auto only() const {
     static_assert(sizeof...(Ids) > 0, "a shader table holds at least one shader");
@@ -149,87 +90,13 @@ class shader_table {
   /// The ids of shaders that may occur: all but those that `only` and `expecting` leave out.
   std::bitset<sizeof...(Shaders)> expected() const {
     std::bitset<sizeof...(Shaders)> result;
-    for_each([&](auto id, auto const&) { result[id] = !absent_[id]; });
+    this->for_each([&](auto id, auto const&) { result[id] = !absent_[id]; });
     return result;
-  }
-
-  /// Calls `f(id, shader)` for every shader in order; `id` is a std::integral_constant.
-  DEFERRED_SHADE_EXEC_CHECK_DISABLE
-  template <class Function>
-  DEFERRED_SHADE_HOST_DEVICE void for_each(Function&& f) const {
-    for_each_among<0, size()>(f);
   }
 
  private:
   template <class... Others>
   friend class shader_table;
-
-  // Compilers turn the folded comparisons into one switch. The halving above it keeps the depth of
-  // a fold, which clang limits to 256, apart from the size of the table.
-  static constexpr shader_id leaf_size = 32;
-
-  struct call_with {
-    request_index i;
-    DEFERRED_SHADE_EXEC_CHECK_DISABLE
-    template <class Shader>
-    DEFERRED_SHADE_HOST_DEVICE void operator()(Shader const& shader) const {
-      static_cast<void>(shader(i));
-    }
-  };
-
-  DEFERRED_SHADE_EXEC_CHECK_DISABLE
-  template <shader_id First, shader_id Last, class Function>
-  DEFERRED_SHADE_HOST_DEVICE void visit_among(shader_id id, Function const& f) const {
-    if constexpr (Last - First <= leaf_size) {
-      visit_leaf<First>(id, f, std::make_integer_sequence<shader_id, Last - First>());
-    } else {
-      constexpr shader_id middle = First + (Last - First) / 2;
-      if (id < middle) {
-        visit_among<First, middle>(id, f);
-      } else {
-        visit_among<middle, Last>(id, f);
-      }
-    }
-  }
-
-  DEFERRED_SHADE_EXEC_CHECK_DISABLE
-  template <shader_id First, class Function, shader_id... Offsets>
-  DEFERRED_SHADE_HOST_DEVICE void visit_leaf(shader_id id, Function const& f,
-                                             std::integer_sequence<shader_id, Offsets...>) const {
-    (void)((id == First + Offsets && visit_one<First + Offsets>(f)) || ...);
-  }
-
-  DEFERRED_SHADE_EXEC_CHECK_DISABLE
-  template <shader_id Id, class Function>
-  DEFERRED_SHADE_HOST_DEVICE bool visit_one(Function const& f) const {
-    if constexpr (has<Id>) f(get<Id>());
-    return true;
-  }
-
-  DEFERRED_SHADE_EXEC_CHECK_DISABLE
-  template <shader_id First, shader_id Last, class Function>
-  DEFERRED_SHADE_HOST_DEVICE void for_each_among(Function& f) const {
-    if constexpr (Last - First <= leaf_size) {
-      for_each_leaf<First>(f, std::make_integer_sequence<shader_id, Last - First>());
-    } else {
-      constexpr shader_id middle = First + (Last - First) / 2;
-      for_each_among<First, middle>(f);
-      for_each_among<middle, Last>(f);
-    }
-  }
-
-  DEFERRED_SHADE_EXEC_CHECK_DISABLE
-  template <shader_id First, class Function, shader_id... Offsets>
-  DEFERRED_SHADE_HOST_DEVICE void for_each_leaf(
-      Function& f, std::integer_sequence<shader_id, Offsets...>) const {
-    (call_for<First + Offsets>(f), ...);
-  }
-
-  DEFERRED_SHADE_EXEC_CHECK_DISABLE
-  template <shader_id Id, class Function>
-  DEFERRED_SHADE_HOST_DEVICE void call_for(Function& f) const {
-    if constexpr (has<Id>) f(std::integral_constant<shader_id, Id>{}, get<Id>());
-  }
 
   template <shader_id... Ids, shader_id... All>
   constexpr auto only_among(std::integer_sequence<shader_id, All...>) const {
@@ -243,13 +110,12 @@ class shader_table {
   template <shader_id Id, bool Keep>
   constexpr auto get_if() const {
     if constexpr (Keep) {
-      return get<Id>();
+      return this->template get<Id>();
     } else {
       return no_shader{};
     }
   }
 
-  detail::table_of<Shaders...> shaders_;
   std::bitset<sizeof...(Shaders)> absent_;
 };
 

@@ -19,7 +19,7 @@ inline namespace DEFERRED_SHADE_ARCHITECTURES {
 /// and the next begins, and nowhere else.
 template <std::uint32_t Threads, std::uint32_t Items, class Count, class Ids, class... Shaders>
 __global__ void __launch_bounds__(Threads)
-    dense_kernel(Count n, Ids ids, shader_table<Shaders...> const __grid_constant__ shaders) {
+    dense_kernel(Count n, Ids ids, shader_list<Shaders...> const __grid_constant__ shaders) {
   using sort = tile_sort<sizeof...(Shaders), Threads, Items>;
   static_assert((sizeof...(Shaders) + 1) * sort::size <= 0x10000,
                 "tuning::tile: a dense tile has entries of 16 bits, for 63 shaders");

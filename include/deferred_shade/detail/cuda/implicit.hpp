@@ -23,7 +23,7 @@ inline namespace DEFERRED_SHADE_ARCHITECTURES {
 /// Runs every request through the shader that it names.
 template <class Count, class Ids, class... Shaders>
 __global__ void switch_kernel(Count n, Ids ids,
-                              shader_table<Shaders...> const __grid_constant__ shaders) {
+                              shader_list<Shaders...> const __grid_constant__ shaders) {
   begin_after_earlier_kernels();
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   auto const i = static_cast<request_index>(p);
@@ -37,7 +37,7 @@ __global__ void switch_kernel(Count n, Ids ids,
 /// so are their sinks; else loads and stores take turns as well.
 template <class Count, class Ids, class... Shaders>
 __global__ void records_kernel(Count n, Ids ids,
-                               shader_table<Shaders...> const __grid_constant__ shaders,
+                               shader_list<Shaders...> const __grid_constant__ shaders,
                                bool one_place) {
   using request = typename staging<Shaders...>::request;
   using result = typename staging<Shaders...>::result;
@@ -71,7 +71,7 @@ __global__ void records_kernel(Count n, Ids ids,
 /// Runs the requests of a grouping through the shaders of their segments.
 template <class... Shaders>
 __global__ void segments_kernel(request_index const* permutation, request_index const* offsets,
-                                shader_table<Shaders...> const __grid_constant__ shaders) {
+                                shader_list<Shaders...> const __grid_constant__ shaders) {
   begin_after_earlier_kernels();
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   if (p >= offsets[sizeof...(Shaders)]) return;

@@ -26,7 +26,7 @@ inline namespace DEFERRED_SHADE_ARCHITECTURES {
 /// pointer.
 template <std::uint32_t Threads, std::uint32_t Items, class Count, class Ids, class... Shaders>
 __global__ void __launch_bounds__(Threads)
-    staged_kernel(Count n, Ids ids, shader_table<Shaders...> const __grid_constant__ shaders,
+    staged_kernel(Count n, Ids ids, shader_list<Shaders...> const __grid_constant__ shaders,
                   bool one_source) {
   using records = staging<Shaders...>;
   using request = typename records::request;

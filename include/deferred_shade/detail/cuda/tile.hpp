@@ -25,7 +25,7 @@ inline namespace DEFERRED_SHADE_ARCHITECTURES {
 /// them, and a warp takes the next row as soon as it has done one.
 template <std::uint32_t Threads, std::uint32_t Items, class Count, class Ids, class... Shaders>
 __global__ void __launch_bounds__(Threads)
-    tile_kernel(Count n, Ids ids, shader_table<Shaders...> const __grid_constant__ shaders) {
+    tile_kernel(Count n, Ids ids, shader_list<Shaders...> const __grid_constant__ shaders) {
   using sort = tile_sort<sizeof...(Shaders), Threads, Items>;
   __shared__ typename sort::temporary_storage temporary;
   __shared__ std::uint32_t starts[sort::columns];
@@ -58,7 +58,7 @@ __global__ void __launch_bounds__(Threads)
 /// Sorts a block of 256 requests by a bitonic network and runs the switch over them.
 template <class Count, class Ids, class... Shaders>
 __global__ void __launch_bounds__(bitonic::tile)
-    bitonic_kernel(Count n, Ids ids, shader_table<Shaders...> const __grid_constant__ shaders) {
+    bitonic_kernel(Count n, Ids ids, shader_list<Shaders...> const __grid_constant__ shaders) {
   __shared__ std::uint32_t keys[bitonic::tile];
   begin_after_earlier_kernels();
   std::uint32_t const t = threadIdx.x;

@@ -20,7 +20,7 @@ inline namespace DEFERRED_SHADE_ARCHITECTURES {
 template <std::uint32_t Threads, class... Shaders>
 __global__ void __launch_bounds__(Threads)
     window_kernel(window_grouping windows, std::size_t maximum,
-                  shader_table<Shaders...> const __grid_constant__ shaders) {
+                  shader_list<Shaders...> const __grid_constant__ shaders) {
   begin_after_earlier_kernels();
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   std::size_t const window = p / window_size;

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <type_traits>
+#include <utility>
+
+#include <deferred_shade/config.hpp>
+#include <deferred_shade/types.hpp>
+
+namespace deferred_shade {
+
+/// What stands in a table where shader_table::only has left out a shader: no code is made for it.
+struct no_shader {
+  DEFERRED_SHADE_HOST_DEVICE void operator()(request_index) const {}
+};
+
+namespace detail {
+
+// A table has one base class per shader, and finds a shader by conversion to its base: unlike a
+// tuple, no fold or recursion over the pack limits its size or slows the compiler.
+template <shader_id Id, class Shader>
+struct table_slot {
+  static_assert(std::is_invocable_v<Shader const&, request_index>,
+                "a shader is called as shader(request_index) and its operator() is const");
+  Shader shader;
+};
+
+template <class Ids, class... Shaders>
+struct table_slots;
+template <shader_id... Ids, class... Shaders>
+struct table_slots<std::integer_sequence<shader_id, Ids...>, Shaders...>
+    : table_slot<Ids, Shaders>... {
+  constexpr explicit table_slots(Shaders... shaders)
+      : table_slot<Ids, Shaders>{std::move(shaders)}... {}
+};
+
+template <class... Shaders>
+using table_of = table_slots<std::make_integer_sequence<shader_id, sizeof...(Shaders)>, Shaders...>;
+
+template <shader_id Id, class Shader>
+DEFERRED_SHADE_HOST_DEVICE constexpr Shader const& shader_in(
+    table_slot<Id, Shader> const& slot) noexcept {
+  return slot.shader;
+}
+
+/// The shaders of a table: all of it that a kernel is given.
+template <class... Shaders>
+class shader_list {
+ public:
+  constexpr explicit shader_list(Shaders... shaders) : shaders_(std::move(shaders)...) {}
+
+  /// The number of shaders.
+  static constexpr shader_id size() noexcept { return static_cast<shader_id>(sizeof...(Shaders)); }
+
+  /// Whether there is a shader at position `Id`, or `only` has left it out.
+  template <shader_id Id>
+  static constexpr bool has =
+      !std::is_same_v<std::decay_t<decltype(shader_in<Id>(std::declval<table_of<Shaders...>>()))>,
+                      no_shader>;
+
+  /// The lowest id that the table has a shader for.
+  DEFERRED_SHADE_HOST_DEVICE static constexpr shader_id first_id() noexcept {
+    constexpr bool present[] = {!std::is_same_v<Shaders, no_shader>...};
+    shader_id id = 0;
+    while (!present[id]) ++id;
+    return id;
+  }
+
+  /// The shader at position `Id`.
+  template <shader_id Id>
+  DEFERRED_SHADE_HOST_DEVICE constexpr auto const& get() const noexcept {
+    return shader_in<Id>(shaders_);
+  }
+
+  /// Runs shader `id` on request `i`; does nothing where the table has no such shader.
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
+  DEFERRED_SHADE_HOST_DEVICE void run(shader_id id, request_index i) const {
+    visit(id, call_with{i});
+  }
+
+  /// Calls `f(shader)` for shader `id`; does nothing where the table has no such shader.
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
+  template <class Function>
+  DEFERRED_SHADE_HOST_DEVICE void visit(shader_id id, Function const& f) const {
+    visit_among<0, size()>(id, f);
+  }
+
+  /// Calls `f(id, shader)` for every shader in order; `id` is a std::integral_constant.
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
+  template <class Function>
+  DEFERRED_SHADE_HOST_DEVICE void for_each(Function&& f) const {
+    for_each_among<0, size()>(f);
+  }
+
+ private:
+  // Compilers turn the folded comparisons into one switch. The halving above it keeps the depth of
+  // a fold, which clang limits to 256, apart from the size of the table.
+  static constexpr shader_id leaf_size = 32;
+
+  struct call_with {
+    request_index i;
+    DEFERRED_SHADE_EXEC_CHECK_DISABLE
+    template <class Shader>
+    DEFERRED_SHADE_HOST_DEVICE void operator()(Shader const& shader) const {
+      static_cast<void>(shader(i));
+    }
+  };
+
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
+  template <shader_id First, shader_id Last, class Function>
+  DEFERRED_SHADE_HOST_DEVICE void visit_among(shader_id id, Function const& f) const {
+    if constexpr (Last - First <= leaf_size) {
+      visit_leaf<First>(id, f, std::make_integer_sequence<shader_id, Last - First>());
+    } else {
+      constexpr shader_id middle = First + (Last - First) / 2;
+      if (id < middle) {
+        visit_among<First, middle>(id, f);
+      } else {
+        visit_among<middle, Last>(id, f);
+      }
+    }
+  }
+
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
+  template <shader_id First, class Function, shader_id... Offsets>
+  DEFERRED_SHADE_HOST_DEVICE void visit_leaf(shader_id id, Function const& f,
+                                             std::integer_sequence<shader_id, Offsets...>) const {
+    (void)((id == First + Offsets && visit_one<First + Offsets>(f)) || ...);
+  }
+
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
+  template <shader_id Id, class Function>
+  DEFERRED_SHADE_HOST_DEVICE bool visit_one(Function const& f) const {
+    if constexpr (has<Id>) f(get<Id>());
+    return true;
+  }
+
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
+  template <shader_id First, shader_id Last, class Function>
+  DEFERRED_SHADE_HOST_DEVICE void for_each_among(Function& f) const {
+    if constexpr (Last - First <= leaf_size) {
+      for_each_leaf<First>(f, std::make_integer_sequence<shader_id, Last - First>());
+    } else {
+      constexpr shader_id middle = First + (Last - First) / 2;
+      for_each_among<First, middle>(f);
+      for_each_among<middle, Last>(f);
+    }
+  }
+
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
+  template <shader_id First, class Function, shader_id... Offsets>
+  DEFERRED_SHADE_HOST_DEVICE void for_each_leaf(
+      Function& f, std::integer_sequence<shader_id, Offsets...>) const {
+    (call_for<First + Offsets>(f), ...);
+  }
+
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
+  template <shader_id Id, class Function>
+  DEFERRED_SHADE_HOST_DEVICE void call_for(Function& f) const {
+    if constexpr (has<Id>) f(std::integral_constant<shader_id, Id>{}, get<Id>());
+  }
+
+  table_of<Shaders...> shaders_;
+};
+
+}  // namespace detail
+}  // namespace deferred_shade
