@@ -34,7 +34,7 @@ namespace detail {
 inline void check_cuda(cudaError_t status, char const* doing) {
   if (status == cudaSuccess) return;
   cudaGetLastError();  // else the next call would report it again
-  fail<cuda_error>(status, doing);
+  detail::fail<cuda_error>(status, doing);
 }
 
 /// Before a call of CUB, which would take what the renderer left there for an error of its own.

@@ -36,7 +36,8 @@ struct compact_then_dispatch {
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
                   Workspace& scratch) const {
     Dispatch{}(exec,
-               group_by_compaction<sizeof...(Shaders)>(exec, n, ids, scratch, shaders.expected()),
+               deferred_shade::group_by_compaction<sizeof...(Shaders)>(exec, n, ids, scratch,
+                                                                       shaders.expected()),
                shaders, scratch);
   }
 };
@@ -54,8 +55,8 @@ struct sort_then_dispatch {
   template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
                   Workspace& scratch) const {
-    Dispatch{}(exec, group_by_radix_sort<sizeof...(Shaders)>(exec, n, ids, scratch), shaders,
-               scratch);
+    Dispatch{}(exec, deferred_shade::group_by_radix_sort<sizeof...(Shaders)>(exec, n, ids, scratch),
+               shaders, scratch);
   }
 };
 
@@ -75,7 +76,8 @@ struct bucket_then_dispatch {
   template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
                   Workspace& scratch) const {
-    Dispatch{}(exec, group_by_bucket<sizeof...(Shaders)>(exec, n, ids, scratch), shaders, scratch);
+    Dispatch{}(exec, deferred_shade::group_by_bucket<sizeof...(Shaders)>(exec, n, ids, scratch),
+               shaders, scratch);
   }
 };
 
@@ -169,7 +171,7 @@ struct every_schedule {
   static constexpr std::size_t workspace_bytes(Machine const& where, std::size_t n,
                                                std::size_t shaders) {
     std::size_t most = 0;
-    for_each_schedule([&](char const*, auto const& schedule) {
+    deferred_shade::for_each_schedule([&](char const*, auto const& schedule) {
       most = (std::max)(most, schedule.workspace_bytes(where, n, shaders));
     });
     return most;

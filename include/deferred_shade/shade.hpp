@@ -25,10 +25,10 @@ inline constexpr bool is_device_count<device_count<Integer>> = true;
 template <class System, class Count>
 auto batch_size(System, Count n) {
   if constexpr (is_device_count<Count> && std::is_same_v<System, cuda_system>) {
-    checked_maximum("shade", n);
+    detail::checked_maximum("shade", n);
     return n;
   } else {
-    return checked_count("shade", n);
+    return detail::checked_count("shade", n);
   }
 }
 

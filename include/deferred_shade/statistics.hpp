@@ -34,15 +34,15 @@ inline void check_width(std::string const& caller, std::uint32_t width) {
 template <class Policy, class Count, class Ids, class Function>
 auto on_host(host_system, std::string const& caller, Policy const& exec, Count n, Ids ids,
              Function const& f) {
-  return f(exec, checked_count(caller, n), ids);
+  return f(exec, detail::checked_count(caller, n), ids);
 }
 #ifdef __CUDACC__
 template <class Policy, class Count, class Ids, class Function>
 auto on_host(cuda_system, std::string const& caller, Policy const& exec, Count n, Ids ids,
              Function const& f) {
-  cudaStream_t const stream = stream_of(exec);
-  request_index const count = count_on_host(caller, stream, n);
-  std::vector<shader_id> const copy = ids_on_host(stream, count, ids);
+  cudaStream_t const stream = detail::stream_of(exec);
+  request_index const count = detail::count_on_host(caller, stream, n);
+  std::vector<shader_id> const copy = detail::ids_on_host(stream, count, ids);
   return f(thrust::cpp::par, count, copy.data());
 }
 #endif
@@ -89,7 +89,7 @@ occurrences occurrences_of(Policy const& exec, std::size_t size, Ids const& ids,
   std::size_t const columns = std::size_t{shaders} + 1;
   std::vector<std::uint64_t> requests(blocks.count() * columns), groups = requests;
   std::vector<std::uint64_t> last_group = requests;  // its number + 1; 0: none yet
-  for_each_block(exec, blocks, [&](std::size_t b) {
+  detail::for_each_block(exec, blocks, [&](std::size_t b) {
     std::size_t const row = b * columns;
     for (std::size_t i = blocks.begin(b); i < blocks.end(b); ++i) {
       std::size_t const k = row + detail::shader_of(ids, static_cast<request_index>(i), shaders);
@@ -113,7 +113,7 @@ void efficiency_of_groups(Policy const& exec, std::size_t size, Ids const& ids,
                           efficiency_model const& model, float* efficiency) {
   block_partition const blocks(size, model.shaders, model.width);
   std::vector<std::size_t> last_group(blocks.count() * model.shaders);
-  for_each_block(exec, blocks, [&](std::size_t b) {
+  detail::for_each_block(exec, blocks, [&](std::size_t b) {
     std::size_t* const last = last_group.data() + b * model.shaders;
     for (std::size_t first = blocks.begin(b); first < blocks.end(b); first += model.width) {
       std::size_t const group = first / model.width;
@@ -163,7 +163,8 @@ occurrences count_occurrences(Policy const& exec, Count n, Ids ids, shader_id sh
 template <class Policy, class Count, class Ids>
 double heterogeneous_efficiency(Policy const& exec, Count n, Ids ids,
                                 efficiency_model const& model) {
-  occurrences const count = count_occurrences(exec, n, ids, model.shaders, model.width);
+  occurrences const count =
+      deferred_shade::count_occurrences(exec, n, ids, model.shaders, model.width);
   double useful = 0, held = 0;
   for (shader_id k = 0; k < model.shaders; ++k) {
     useful += static_cast<double>(count.requests[k]) * model.costs[k];

@@ -39,15 +39,15 @@ request_index checked_maximum(std::string const& caller, device_count<Integer> n
     detail::fail<std::invalid_argument>("deferred_shade::" + caller +
                                         ": the pointer of device_count is null");
   }
-  return checked_count(caller, n.maximum);
+  return detail::checked_count(caller, n.maximum);
 }
 
 /// The count that `n` points at; std::invalid_argument where it points nowhere, std::length_error
 /// where the count is above its maximum.
 template <class Integer>
 request_index checked_count(std::string const& caller, device_count<Integer> n) {
-  request_index const maximum = checked_maximum(caller, n);
-  request_index const count = checked_count(caller, *n.pointer);
+  request_index const maximum = detail::checked_maximum(caller, n);
+  request_index const count = detail::checked_count(caller, *n.pointer);
   if (count > maximum) {
     detail::fail<std::length_error>("deferred_shade::" + caller + ": device_count points at " +
                                     std::to_string(count) + " requests, above its maximum of " +

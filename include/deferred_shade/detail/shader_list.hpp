@@ -69,7 +69,7 @@ class shader_list {
   /// The shader at position `Id`.
   template <shader_id Id>
   DEFERRED_SHADE_HOST_DEVICE constexpr auto const& get() const noexcept {
-    return shader_in<Id>(shaders_);
+    return detail::shader_in<Id>(shaders_);
   }
 
   /// Runs shader `id` on request `i`; does nothing where the table has no such shader.

@@ -97,7 +97,7 @@ void run_schedule(System, Schedule const& schedule, Policy const& exec, Count n,
     static constexpr present_ids<Shaders...> those;
     renumbered seen(scratch, those.ids.data());
     schedule(exec, n, dense_ids(ids, {}),
-             without_gaps(shaders, std::make_index_sequence<present.count>()), seen);
+             detail::without_gaps(shaders, std::make_index_sequence<present.count>()), seen);
   } else {
     schedule(exec, n, ids, shaders, scratch);
   }

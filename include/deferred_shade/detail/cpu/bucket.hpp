@@ -22,15 +22,15 @@ void for_each_chunk(Ids const& ids, std::size_t begin, std::size_t end, Function
   for (std::size_t i = begin; i < end; i += Chunk) {
     auto const first = static_cast<request_index>(i);
     auto const size = static_cast<request_index>((std::min)(Chunk, end - i));
-    load_keys<Shaders>(ids, first, size, keys);
+    detail::load_keys<Shaders>(ids, first, size, keys);
     f(keys, first, size);
   }
 }
 
 constexpr std::size_t bucket_bytes(host_system, std::size_t n, std::size_t shaders) {
-  return array_bytes<request_index>(n) +
-         array_bytes<std::uint32_t>(block_partition::max_counters(n, shaders)) +
-         array_bytes<request_index>(shaders + 1);
+  return detail::array_bytes<request_index>(n) +
+         detail::array_bytes<std::uint32_t>(block_partition::max_counters(n, shaders)) +
+         detail::array_bytes<request_index>(shaders + 1);
 }
 
 /// Counts the keys of the requests from `begin` to `end`. A large table is counted where the counts
@@ -39,14 +39,13 @@ template <shader_id Shaders, request_index Parts, std::size_t VectorBytes, class
 void count_block(Ids const& ids, std::size_t begin, std::size_t end, std::uint32_t* counts) {
   if constexpr (Parts == 1 && VectorBytes == 0) {
     std::fill_n(counts, Shaders + 1, 0U);
-    for_each_chunk<Shaders, place_chunk>(ids, begin, end,
-                                         [&](auto const* keys, request_index, request_index size) {
-                                           for (request_index i = 0; i < size; ++i)
-                                             ++counts[keys[i]];
-                                         });
+    detail::for_each_chunk<Shaders, place_chunk>(
+        ids, begin, end, [&](auto const* keys, request_index, request_index size) {
+          for (request_index i = 0; i < size; ++i) ++counts[keys[i]];
+        });
   } else {
     key_counts<Shaders, Parts, VectorBytes> of_block;
-    for_each_chunk<Shaders, VectorBytes != 0 ? compared_chunk : place_chunk>(
+    detail::for_each_chunk<Shaders, VectorBytes != 0 ? compared_chunk : place_chunk>(
         ids, begin, end,
         [&](auto const* keys, request_index, request_index size) { of_block.add(keys, size); });
     for (shader_id k = 0; k <= Shaders; ++k) counts[k] = of_block.of(k);
@@ -65,19 +64,20 @@ grouping bucket_grouping(host_system, Policy const& exec, request_index n, Ids i
       elements<request_index>(n), elements<std::uint32_t>(blocks.max_count(n, Shaders) * columns),
       elements<request_index>(columns));
 
-  for_each_block(exec, blocks, [=, counts = counts](std::size_t b) {
-    count_block<Shaders, parts, compared>(ids, blocks.begin(b), blocks.end(b),
-                                          counts + b * columns);
+  detail::for_each_block(exec, blocks, [=, counts = counts](std::size_t b) {
+    detail::count_block<Shaders, parts, compared>(ids, blocks.begin(b), blocks.end(b),
+                                                  counts + b * columns);
   });
-  scan_columns(blocks, columns, counts, offsets);
-  for_each_block(exec, blocks, [=, counts = counts, permutation = permutation](std::size_t b) {
-    for_each_chunk<Shaders, place_chunk>(
-        ids, blocks.begin(b), blocks.end(b),
-        [&](auto const* keys, request_index first, request_index size) {
-          place_by_keys<tuning::ahead_of_places(Shaders)>(keys, size, first, counts + b * columns,
-                                                          permutation);
-        });
-  });
+  detail::scan_columns(blocks, columns, counts, offsets);
+  detail::for_each_block(exec, blocks,
+                         [=, counts = counts, permutation = permutation](std::size_t b) {
+                           detail::for_each_chunk<Shaders, place_chunk>(
+                               ids, blocks.begin(b), blocks.end(b),
+                               [&](auto const* keys, request_index first, request_index size) {
+                                 detail::place_by_keys<tuning::ahead_of_places(Shaders)>(
+                                     keys, size, first, counts + b * columns, permutation);
+                               });
+                         });
   return {permutation, offsets, n};
 }
 

@@ -18,9 +18,9 @@
 namespace deferred_shade::detail {
 
 constexpr std::size_t compact_bytes(host_system, std::size_t n, std::size_t shaders) {
-  return array_bytes<request_index>(n) +
-         array_bytes<std::uint32_t>(block_partition::max_count(n, 0) + 1) +
-         array_bytes<request_index>(shaders + 1);
+  return detail::array_bytes<request_index>(n) +
+         detail::array_bytes<std::uint32_t>(block_partition::max_count(n, 0) + 1) +
+         detail::array_bytes<request_index>(shaders + 1);
 }
 
 template <shader_id Shaders, class Policy, class Ids, class Workspace>
@@ -41,17 +41,18 @@ grouping compact_grouping(host_system, Policy const& exec, request_index n, Ids 
     auto const named = [ids, k](request_index i) {
       return detail::shader_of(ids, i, Shaders) == k;
     };
-    for_each_block(exec, blocks, [=, counts = counts](std::size_t b) {
+    detail::for_each_block(exec, blocks, [=, counts = counts](std::size_t b) {
       counts[b] = static_cast<std::uint32_t>(
           thrust::count_if(thrust::seq, request(blocks.begin(b)), request(blocks.end(b)), named));
     });
     counts[blocks.count()] = 0;
     thrust::exclusive_scan(thrust::seq, counts, counts + blocks.count() + 1, counts, offsets[k]);
     offsets[k + 1] = counts[blocks.count()];
-    for_each_block(exec, blocks, [=, counts = counts, permutation = permutation](std::size_t b) {
-      thrust::copy_if(thrust::seq, request(blocks.begin(b)), request(blocks.end(b)),
-                      permutation + counts[b], named);
-    });
+    detail::for_each_block(
+        exec, blocks, [=, counts = counts, permutation = permutation](std::size_t b) {
+          thrust::copy_if(thrust::seq, request(blocks.begin(b)), request(blocks.end(b)),
+                          permutation + counts[b], named);
+        });
   }
   return {permutation, offsets, n};
 }

@@ -37,9 +37,9 @@ template <shader_id Shaders, std::size_t Size, class Ids>
 void load_keys(Ids const& ids, request_index first, request_index size,
                sort_key<Shaders> (&keys)[Size]) {
   if (size == Size) {
-    load_keys<Shaders>(ids_from(ids, first), Size, keys);  // vectors at -O2, too
+    detail::load_keys<Shaders>(detail::ids_from(ids, first), Size, keys);  // vectors at -O2, too
   } else {
-    load_keys<Shaders>(ids_from(ids, first), size, keys);
+    detail::load_keys<Shaders>(detail::ids_from(ids, first), size, keys);
   }
 }
 
@@ -170,7 +170,7 @@ request_index quarters_same(Key const* keys, request_index size) {
   request_index looks = 0, same = 0;
   for (request_index i = 0; size - i >= key_step;
        ++looks, i += (std::min)(size - i, 8 * key_step)) {
-    same += are_same(keys + i);
+    same += detail::are_same(keys + i);
   }
   return looks == 0 ? 0 : 4 * same / looks;
 }
@@ -182,7 +182,7 @@ template <cache Ahead, class Number>
 void place_one(std::size_t key, Number number, std::uint32_t* next, Number* places) {
   std::uint32_t const place = next[key]++;
   places[place] = number;
-  prefetch<Ahead>(places, place + 128 / sizeof(Number));
+  detail::prefetch<Ahead>(places, place + 128 / sizeof(Number));
 }
 
 /// The same as key_counts::place with no counts of these keys, one after the other.
@@ -195,13 +195,14 @@ void place_each(Key const* keys, request_index size, Number first, std::uint32_t
     for (std::uint64_t word; size - i >= sizeof word / sizeof(Key);) {
       std::memcpy(&word, keys + i, sizeof word);
       for (std::size_t bit = 0; bit < 64; bit += 8 * sizeof(Key), ++i) {
-        place_one<Ahead>(static_cast<Key>(word >> bit), static_cast<Number>(first + i), next,
-                         places);
+        detail::place_one<Ahead>(static_cast<Key>(word >> bit), static_cast<Number>(first + i),
+                                 next, places);
       }
     }
   }
 #endif
-  for (; i < size; ++i) place_one<Ahead>(keys[i], static_cast<Number>(first + i), next, places);
+  for (; i < size; ++i)
+    detail::place_one<Ahead>(keys[i], static_cast<Number>(first + i), next, places);
 }
 
 /// As place_each, but those that are the same take one look at `next`, where each would wait for
@@ -210,19 +211,19 @@ template <cache Ahead, class Key, class Number>
 void place_by_keys(Key const* keys, request_index size, Number first, std::uint32_t* next,
                    Number* places) {
   request_index i = 0;
-  for (bool const coherent = quarters_same(keys, size) > 0; coherent && size - i >= key_step;
-       i += key_step) {
+  for (bool const coherent = detail::quarters_same(keys, size) > 0;
+       coherent && size - i >= key_step; i += key_step) {
     auto const number = static_cast<Number>(first + i);
-    if (are_same(keys + i)) {
+    if (detail::are_same(keys + i)) {
       Number* const here = places + next[keys[i]];
       next[keys[i]] += key_step;
-      prefetch<Ahead>(here, 320 / sizeof(Number));
+      detail::prefetch<Ahead>(here, 320 / sizeof(Number));
       for (request_index j = 0; j < key_step; ++j) here[j] = static_cast<Number>(number + j);
     } else {
-      place_each<Ahead>(keys + i, key_step, number, next, places);
+      detail::place_each<Ahead>(keys + i, key_step, number, next, places);
     }
   }
-  place_each<Ahead>(keys + i, size - i, static_cast<Number>(first + i), next, places);
+  detail::place_each<Ahead>(keys + i, size - i, static_cast<Number>(first + i), next, places);
 }
 
 }  // namespace deferred_shade::detail

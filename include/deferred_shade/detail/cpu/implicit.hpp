@@ -26,7 +26,7 @@ template <class Policy, class... Shaders, class Workspace>
 void run_implicit(host_system, Policy const& exec, grouping group,
                   shader_table<Shaders...> const& shaders, Workspace const&) {
   block_partition const blocks(group.offsets[sizeof...(Shaders)], sizeof...(Shaders));
-  for_each_block(exec, blocks, [=, &shaders](std::size_t b) {
+  detail::for_each_block(exec, blocks, [=, &shaders](std::size_t b) {
     for (shader_id k = 0; k < sizeof...(Shaders); ++k) {
       std::size_t const first = group.offsets[k];
       std::size_t const size = group.offsets[k + 1] - first;

@@ -55,11 +55,13 @@ class lanes {
  public:
   T get(std::size_t lane) const noexcept { return get(lane, each_word()); }
   // By value: a reference would have g++ keep the record in memory, and the loop scalar.
-  void set(std::size_t lane, T record) noexcept { set(lane, bits_as<words>(record), each_word()); }
+  void set(std::size_t lane, T record) noexcept {
+    set(lane, detail::bits_as<words>(record), each_word());
+  }
   /// The same from memory, for a loop that is not vectorised.
   void copy(std::size_t lane, T const& record) noexcept {
     for (std::size_t word = 0; word < count; ++word)
-      copy_word(word, detail::address_of(record), words_[word][lane]);
+      detail::copy_word(word, detail::address_of(record), words_[word][lane]);
   }
   /// Four records to `lane` and the lanes after it.
   void copy(std::size_t lane, T const& a, T const& b, T const& c, T const& d) noexcept {
@@ -68,7 +70,7 @@ class lanes {
     for (std::size_t word = 0; word < shuffled; word += 4) {
       four_words out[4] = {words_of(a, word), words_of(b, word), words_of(c, word),
                            words_of(d, word)};
-      transpose(out);
+      detail::transpose(out);
       for (std::size_t i = 0; i < 4; ++i) std::memcpy(&words_[word + i][lane], &out[i], 16);
     }
 #else
@@ -76,10 +78,10 @@ class lanes {
 #endif
     if constexpr (shuffled < count) {  // g++ warns of a loop that it knows to be empty
       for (std::size_t word = shuffled; word < count; ++word) {
-        copy_word(word, detail::address_of(a), words_[word][lane]);
-        copy_word(word, detail::address_of(b), words_[word][lane + 1]);
-        copy_word(word, detail::address_of(c), words_[word][lane + 2]);
-        copy_word(word, detail::address_of(d), words_[word][lane + 3]);
+        detail::copy_word(word, detail::address_of(a), words_[word][lane]);
+        detail::copy_word(word, detail::address_of(b), words_[word][lane + 1]);
+        detail::copy_word(word, detail::address_of(c), words_[word][lane + 2]);
+        detail::copy_word(word, detail::address_of(d), words_[word][lane + 3]);
       }
     }
   }
@@ -87,7 +89,7 @@ class lanes {
  private:
   template <std::size_t... Word>
   T get(std::size_t lane, std::index_sequence<Word...>) const noexcept {
-    return bits_as<T>(words{{words_[Word][lane]...}});
+    return detail::bits_as<T>(words{{words_[Word][lane]...}});
   }
   template <std::size_t... Word>
   void set(std::size_t lane, words const& record, std::index_sequence<Word...>) noexcept {

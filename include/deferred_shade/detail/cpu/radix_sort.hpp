@@ -28,7 +28,7 @@ class arena {
 
   std::byte* allocate(std::size_t size) {
     std::size_t const aligned = (size + 15) / 16 * 16;
-    if (aligned > static_cast<std::size_t>(last_ - next_)) fail<std::bad_alloc>();
+    if (aligned > static_cast<std::size_t>(last_ - next_)) detail::fail<std::bad_alloc>();
     return std::exchange(next_, next_ + aligned);
   }
   void deallocate(std::byte*, std::size_t) noexcept {}
@@ -46,10 +46,10 @@ using radix_key = std::conditional_t<(Shaders <= 0xff), std::uint8_t, std::uint3
 constexpr std::size_t radix_bytes(host_system, std::size_t n, std::size_t shaders) {
   std::size_t const key = shaders <= 0xff ? 1 : 4;
   std::size_t const pair = key + sizeof(request_index);
-  return 2 * array_bytes<request_index>(n) + array_bytes<std::byte>(n * key) +
-         array_bytes<std::byte>((n + 63) / 64 * 64 * pair) +
-         array_bytes<std::uint32_t>(block_partition::max_counters(n, shaders)) +
-         array_bytes<request_index>(shaders + 1);
+  return 2 * detail::array_bytes<request_index>(n) + detail::array_bytes<std::byte>(n * key) +
+         detail::array_bytes<std::byte>((n + 63) / 64 * 64 * pair) +
+         detail::array_bytes<std::uint32_t>(block_partition::max_counters(n, shaders)) +
+         detail::array_bytes<request_index>(shaders + 1);
 }
 
 /// Sorts `size` keys stably, and their indices with them. `temporary` has room for as many pairs
@@ -92,15 +92,16 @@ grouping radix_grouping(host_system, Policy const& exec, request_index n, Ids id
                    elements<std::uint32_t>(blocks.max_count(n, Shaders) * columns),
                    elements<request_index>(columns));
 
-  for_each_block(
+  detail::for_each_block(
       exec, blocks,
       [=, keys = keys, indices = indices, temporary = temporary, counts = counts](std::size_t b) {
         std::size_t const begin = blocks.begin(b);
         std::size_t const size = blocks.end(b) - begin;
         key* const first = keys + begin;
-        load_keys<Shaders>(ids_from(ids, static_cast<request_index>(begin)), size, first);
+        detail::load_keys<Shaders>(detail::ids_from(ids, static_cast<request_index>(begin)), size,
+                                   first);
         std::iota(indices + begin, indices + begin + size, static_cast<request_index>(begin));
-        sort_pairs(first, indices + begin, size, temporary + begin * pair_size);
+        detail::sort_pairs(first, indices + begin, size, temporary + begin * pair_size);
 
         std::uint32_t* const row = counts + b * columns;
         key const* run = first;
@@ -110,21 +111,21 @@ grouping radix_grouping(host_system, Policy const& exec, request_index n, Ids id
           run = end;
         }
       });
-  scan_columns(blocks, columns, counts, offsets);
-  for_each_block(exec, blocks,
-                 [=, permutation = permutation, indices = indices, counts = counts,
-                  offsets = offsets](std::size_t b) {
-                   std::uint32_t const* const row = counts + b * columns;
-                   request_index const* run = indices + blocks.begin(b);
-                   for (shader_id k = 0; k < Shaders; ++k) {
-                     // The next block's place in the segment, or the segment's end, tells
-                     // how long the run is.
-                     std::uint32_t const end =
-                         b + 1 < blocks.count() ? row[columns + k] : offsets[k + 1];
-                     std::copy_n(run, end - row[k], permutation + row[k]);
-                     run += end - row[k];
-                   }
-                 });
+  detail::scan_columns(blocks, columns, counts, offsets);
+  detail::for_each_block(exec, blocks,
+                         [=, permutation = permutation, indices = indices, counts = counts,
+                          offsets = offsets](std::size_t b) {
+                           std::uint32_t const* const row = counts + b * columns;
+                           request_index const* run = indices + blocks.begin(b);
+                           for (shader_id k = 0; k < Shaders; ++k) {
+                             // The next block's place in the segment, or the segment's end, tells
+                             // how long the run is.
+                             std::uint32_t const end =
+                                 b + 1 < blocks.count() ? row[columns + k] : offsets[k + 1];
+                             std::copy_n(run, end - row[k], permutation + row[k]);
+                             run += end - row[k];
+                           }
+                         });
   return {permutation, offsets, n};
 }
 

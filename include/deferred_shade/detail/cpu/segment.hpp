@@ -47,8 +47,8 @@ inline constexpr std::size_t packed_lanes = (std::min)(most_packed,
 template <class Shader>
 void prefetch_records(Shader const& shader, request_index i) noexcept {
   if constexpr (is_record_shader<Shader>) {
-    prefetch<cache::second_level>(shader.source, i);
-    prefetch<cache::second_level>(shader.sink, i);
+    detail::prefetch<cache::second_level>(shader.source, i);
+    detail::prefetch<cache::second_level>(shader.sink, i);
   }
 }
 
@@ -92,7 +92,7 @@ template <class Shader, class IndexOf, class Ahead>
 void run_segment(Shader const& shader, std::size_t count, IndexOf index_of, Ahead ahead) {
   if constexpr (is_packable<Shader>) {
     for (std::size_t begin = 0; begin < count; begin += packed_lanes<Shader>) {
-      run_packed(
+      detail::run_packed(
           shader, (std::min)(packed_lanes<Shader>, count - begin),
           [=](std::size_t j) { return index_of(begin + j); },
           [=](std::size_t j) { ahead(begin + j); });

@@ -42,15 +42,15 @@ template <class Tuning, shader_id Shaders, request_index Tile, class Ids>
 DEFERRED_SHADE_NOINLINE void counting_sort(Ids const& ids, request_index first, request_index size,
                                            sorted_tile<Shaders, Tile>& result) {
   sort_key<Shaders> keys[Tile];
-  load_keys<Shaders>(ids, first, size, keys);
+  detail::load_keys<Shaders>(ids, first, size, keys);
   key_counts<Shaders, Tuning::counted_parts(Shaders), compared_bytes<Shaders, Tuning>> counts;
   counts.add(keys, size);
   // Where the next request of shader k goes to is where those of k + 1 begin when all are placed.
   std::uint32_t* const next = result.offsets + 1;
   result.offsets[0] = next[0] = 0;
   for (shader_id k = 0; k < Shaders; ++k) next[k + 1] = next[k] + counts.of(k);
-  if (quarters_same(keys, size) >= 3) {
-    place_by_keys<cache::none>(keys, size, std::uint16_t{0}, next, result.order);
+  if (detail::quarters_same(keys, size) >= 3) {
+    detail::place_by_keys<cache::none>(keys, size, std::uint16_t{0}, next, result.order);
   } else {
     counts.place(keys, size, std::uint16_t{0}, next, result.order);
   }
@@ -64,7 +64,7 @@ request_index end_of_stretch(Ids const& ids, request_index begin, request_index 
   constexpr request_index step = 32;  // at a time: compilers make vectors of it
   shader_id const id = detail::shader_of(ids, begin, none);
   for (; end - begin >= step; begin += step) {
-    Ids const here = ids_from(ids, begin);
+    Ids const here = detail::ids_from(ids, begin);
     shader_id differences = 0;
     for (request_index i = 0; i < step; ++i) differences |= detail::shader_of(here, i, none) ^ id;
     if (differences != 0) break;
@@ -84,11 +84,11 @@ bool run_long_stretches(Ids const& ids, request_index first, request_index size,
   request_index ends[Tuning::tile / long_stretch + 1], stretches = 0;
   for (request_index begin = first; begin < end; begin = ends[stretches++]) {
     if (stretches > size / long_stretch) return false;
-    ends[stretches] = end_of_stretch(ids, begin, end, none);
+    ends[stretches] = detail::end_of_stretch(ids, begin, end, none);
   }
   for (request_index k = 0, begin = first; k < stretches; begin = ends[k++]) {
     shaders.visit(detail::shader_of(ids, begin, none), [&](auto const& shader) {
-      run_segment(
+      detail::run_segment(
           shader, ends[k] - begin,
           [begin](std::size_t j) { return begin + static_cast<request_index>(j); },
           [](std::size_t) {});
@@ -121,43 +121,46 @@ void bitonic_sort(std::uint32_t (&keys)[Size]) {
 template <class Policy, class Ids, class... Shaders, class Workspace>
 void run_tiles(host_system, bitonic, Policy const& exec, request_index n, Ids ids,
                shader_table<Shaders...> const& shaders, Workspace const&) {
-  for_each_tile<bitonic::tile>(exec, n, [ids, &shaders](request_index first, request_index size) {
-    std::uint32_t keys[bitonic::tile];
-    for (request_index i = 0; i < size; ++i) {
-      keys[i] =
-          bitonic_key<sizeof...(Shaders)>(detail::shader_of(ids, first + i, sizeof...(Shaders)), i);
-    }
-    std::fill(keys + size, keys + bitonic::tile, 0xffffffffU);
-    bitonic_sort(keys);
-    for (request_index i = 0; i < size; ++i) {
-      shaders.run(keys[i] / bitonic::tile, first + keys[i] % bitonic::tile);
-    }
-  });
+  detail::for_each_tile<bitonic::tile>(
+      exec, n, [ids, &shaders](request_index first, request_index size) {
+        std::uint32_t keys[bitonic::tile];
+        for (request_index i = 0; i < size; ++i) {
+          keys[i] = detail::bitonic_key<sizeof...(Shaders)>(
+              detail::shader_of(ids, first + i, sizeof...(Shaders)), i);
+        }
+        std::fill(keys + size, keys + bitonic::tile, 0xffffffffU);
+        detail::bitonic_sort(keys);
+        for (request_index i = 0; i < size; ++i) {
+          shaders.run(keys[i] / bitonic::tile, first + keys[i] % bitonic::tile);
+        }
+      });
 }
 
 /// Sorts every tile by counting and runs its requests shader by shader.
 template <class Tuning, class Policy, class Ids, class... Shaders>
 void run_counted_tiles(Policy const& exec, request_index n, Ids ids,
                        shader_table<Shaders...> const& shaders) {
-  for_each_tile<Tuning::tile>(exec, n, [n, ids, &shaders](request_index first, request_index size) {
-    if (run_long_stretches<Tuning>(ids, first, size, shaders)) return;
-    sorted_tile<sizeof...(Shaders), Tuning::tile> tile;
-    counting_sort<Tuning>(ids, first, size, tile);
-    // The next tile, which mostly is the same worker's, in the order in which it lies.
-    std::size_t next = std::size_t{first} + size;
-    shaders.for_each([&](auto id, auto const& shader) {
-      std::uint16_t const* const order = tile.order + tile.offsets[id];
-      std::size_t const count = tile.offsets[id + 1] - tile.offsets[id];
-      run_segment(
-          shader, count, [=](std::size_t j) { return first + order[j]; },
-          [n, next, &shaders](std::size_t j) {
-            if (next + j >= n) return;
-            prefetch_records(shaders.template get<shader_table<Shaders...>::first_id()>(),
-                             static_cast<request_index>(next + j));
-          });
-      next += count;
-    });
-  });
+  detail::for_each_tile<Tuning::tile>(
+      exec, n, [n, ids, &shaders](request_index first, request_index size) {
+        if (detail::run_long_stretches<Tuning>(ids, first, size, shaders)) return;
+        sorted_tile<sizeof...(Shaders), Tuning::tile> tile;
+        detail::counting_sort<Tuning>(ids, first, size, tile);
+        // The next tile, which mostly is the same worker's, in the order in which it lies.
+        std::size_t next = std::size_t{first} + size;
+        shaders.for_each([&](auto id, auto const& shader) {
+          std::uint16_t const* const order = tile.order + tile.offsets[id];
+          std::size_t const count = tile.offsets[id + 1] - tile.offsets[id];
+          detail::run_segment(
+              shader, count, [=](std::size_t j) { return first + order[j]; },
+              [n, next, &shaders](std::size_t j) {
+                if (next + j >= n) return;
+                detail::prefetch_records(
+                    shaders.template get<shader_table<Shaders...>::first_id()>(),
+                    static_cast<request_index>(next + j));
+              });
+          next += count;
+        });
+      });
 }
 
 /// Sorts every tile as tuning says.

@@ -23,12 +23,12 @@ grouping bucket_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Work
   constexpr bucket_algorithm algorithm = cuda_tuning_of<Workspace>::bucket(Shaders);
   if constexpr (algorithm == bucket_algorithm::lanes) {
     static_assert(Shaders <= warp_size, "tuning::bucket: a warp has lanes for 32 shaders");
-    return small_bucket_grouping<Shaders>(stream_of(exec), n, ids, scratch);
+    return detail::small_bucket_grouping<Shaders>(detail::stream_of(exec), n, ids, scratch);
   } else if constexpr (algorithm == bucket_algorithm::counters) {
     static_assert(Shaders <= 511, "tuning::bucket: shared memory has counters for 511 shaders");
-    return large_bucket_grouping<Shaders>(stream_of(exec), n, ids, scratch);
+    return detail::large_bucket_grouping<Shaders>(detail::stream_of(exec), n, ids, scratch);
   } else {
-    return radix_grouping<Shaders>(cuda_system{}, exec, n, ids, scratch);
+    return detail::radix_grouping<Shaders>(cuda_system{}, exec, n, ids, scratch);
   }
 }
 

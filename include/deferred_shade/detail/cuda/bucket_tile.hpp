@@ -32,7 +32,7 @@ struct tile_of_block {
   __device__ void load_neighbours_of_thread(Ids const& ids,
                                             std::uint32_t (&keys)[bucket_items]) const {
     std::uint32_t const mine = threadIdx.x * bucket_items;
-    load_neighbours<Shaders>(ids, first + mine, mine < size ? size - mine : 0, keys);
+    detail::load_neighbours<Shaders>(ids, first + mine, mine < size ? size - mine : 0, keys);
   }
 
   /// The same, packed and in any order, for tables of at most 15 shaders. Those that name none have
@@ -51,7 +51,7 @@ struct tile_of_block {
     }
     std::uint32_t keys[bucket_items];
     load_neighbours_of_thread<Shaders>(ids, keys);
-    return to_four_bits(keys);
+    return detail::to_four_bits(keys);
   }
 };
 
@@ -70,13 +70,13 @@ class tile_counts {
   __device__ void count(Ids const& ids, tile_of_block tile, Write const& write) {
     std::uint32_t const lane = threadIdx.x % warp_size;
     std::uint32_t const warp = threadIdx.x / warp_size;
-    if constexpr (counts_in_registers(Shaders)) {
+    if constexpr (detail::counts_in_registers(Shaders)) {
       using counts = thread_counts<Shaders>;
       std::uint32_t mine[counts::words];
       counts::count(tile.load_four_bit_neighbours_of_thread<Shaders>(ids), mine);
 #pragma unroll
       for (std::uint32_t j = 0; j < counts::words; ++j) {
-        std::uint32_t const sum = sum_of_warp(mine[j]);
+        std::uint32_t const sum = detail::sum_of_warp(mine[j]);
         if (lane == 0) memory_[warp][j] = sum;
       }
       __syncthreads();
@@ -104,8 +104,8 @@ class tile_counts {
         std::uint32_t sum = 0;
 #pragma unroll
         for (std::uint32_t w = 0; w < bucket_warps; ++w) sum += memory_[word][w * warp_size + lane];
-        std::uint32_t const even = sum_of_warp(sum & 0x00ff00ffU);
-        std::uint32_t const odd = sum_of_warp(sum >> 8 & 0x00ff00ffU);
+        std::uint32_t const even = detail::sum_of_warp(sum & 0x00ff00ffU);
+        std::uint32_t const odd = detail::sum_of_warp(sum >> 8 & 0x00ff00ffU);
         std::uint32_t const k = word * 4 + lane;
         if (lane < 4 && k < Shaders) {
           write(k, (lane % 2 == 0 ? even : odd) >> lane / 2 * 16 & 0xffff);

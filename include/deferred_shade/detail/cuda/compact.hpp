@@ -27,7 +27,7 @@ struct names_shader {
   Ids ids;
   shader_id id;
   __device__ bool operator()(request_index i) const {
-    return i < size_of(n) && detail::shader_of(ids, i, Shaders) == id;
+    return i < detail::size_of(n) && detail::shader_of(ids, i, Shaders) == id;
   }
 };
 
@@ -52,7 +52,7 @@ struct shader_bits {
 /// Lets the segments of shaders that were not compacted begin and end where the one before ends.
 template <shader_id Shaders>
 __global__ void empty_segments_kernel(request_index* offsets, shader_bits<Shaders> compacted) {
-  begin_after_earlier_kernels();
+  detail::begin_after_earlier_kernels();
   shader_id const end = blockIdx.x * blockDim.x + threadIdx.x;
   if (end > Shaders || end == 0 || compacted[end - 1]) return;
   shader_id last = end - 1;
@@ -63,9 +63,9 @@ __global__ void empty_segments_kernel(request_index* offsets, shader_bits<Shader
 template <shader_id Shaders, class Policy, class Count, class Ids, class Workspace>
 grouping compact_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Workspace& scratch,
                           std::bitset<Shaders> const& wanted) {
-  std::size_t const maximum = maximum_of(n);
-  cudaStream_t const stream = stream_of(exec);
-  forget_earlier_error();
+  std::size_t const maximum = detail::maximum_of(n);
+  cudaStream_t const stream = detail::stream_of(exec);
+  detail::forget_earlier_error();
   thrust::counting_iterator<request_index> const requests(0);
   // The segment of a shader begins at `*begin`, where the one before ends: its launch has written
   // that.
@@ -74,17 +74,18 @@ grouping compact_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Wor
     auto const places = thrust::make_transform_iterator(requests, add_offset{begin});
     auto const segment = thrust::make_permutation_iterator(permutation, places);
     auto const end = thrust::make_transform_output_iterator(end_at, add_offset{begin});
-    check_cuda(cub::DeviceSelect::If(memory, bytes, requests, segment, end,
-                                     static_cast<std::int64_t>(maximum),
-                                     names_shader<Shaders, Count, Ids>{n, ids, k}, stream),
-               "stream compaction");
+    detail::check_cuda(cub::DeviceSelect::If(memory, bytes, requests, segment, end,
+                                             static_cast<std::int64_t>(maximum),
+                                             names_shader<Shaders, Count, Ids>{n, ids, k}, stream),
+                       "stream compaction");
   };
   std::size_t bytes = 0;
   select(nullptr, bytes, 0, nullptr, nullptr, nullptr);
   auto const [permutation, memory, offsets] =
       scratch.take(elements<request_index>(maximum), elements<std::byte>(bytes),
                    elements<request_index>(Shaders + 1));
-  check_cuda(cudaMemsetAsync(offsets, 0, sizeof(request_index), stream), "clearing an offset");
+  detail::check_cuda(cudaMemsetAsync(offsets, 0, sizeof(request_index), stream),
+                     "clearing an offset");
   request_index* begin = offsets;
   for (shader_id k = 0; k < Shaders; ++k) {
     if (!wanted[k]) continue;
@@ -93,9 +94,9 @@ grouping compact_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Wor
   }
   if (!wanted.all()) {
     constexpr std::uint32_t threads = 128;
-    launch<&empty_segments_kernel<Shaders>>("stream compaction", stream,
-                                            {blocks_for(Shaders + 1, threads), threads}, offsets,
-                                            shader_bits<Shaders>(wanted));
+    detail::launch<&empty_segments_kernel<Shaders>>(
+        "stream compaction", stream, {detail::blocks_for(Shaders + 1, threads), threads}, offsets,
+        shader_bits<Shaders>(wanted));
   }
   return {permutation, offsets, maximum};
 }

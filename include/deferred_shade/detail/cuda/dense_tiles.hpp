@@ -26,9 +26,9 @@ __global__ void __launch_bounds__(Threads)
   __shared__ typename sort::temporary_storage temporary;
   __shared__ std::uint32_t starts[sort::columns];
   __shared__ std::uint16_t order[sort::size];  // shaders and positions
-  begin_after_earlier_kernels();
+  detail::begin_after_earlier_kernels();
   std::size_t const tile = std::size_t{blockIdx.x} * sort::size;
-  std::size_t const end = size_of(n);
+  std::size_t const end = detail::size_of(n);
   if (tile >= end) return;
   auto const first = static_cast<request_index>(tile);
   auto const size = static_cast<std::uint32_t>((min)(std::size_t{sort::size}, end - tile));
@@ -52,10 +52,11 @@ __global__ void __launch_bounds__(Threads)
 
 template <class Tuning, std::uint32_t Items, class Policy, class Count, class Ids, class... Shaders>
 void launch_dense(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders) {
-  launch<&dense_kernel<Tuning::dense_threads, Items, Count, Ids, Shaders...>>(
-      "local_sort_then_dispatch", stream_of(exec),
-      {blocks_for(maximum_of(n), Tuning::dense_threads * Items), Tuning::dense_threads}, n, ids,
-      shaders);
+  detail::launch<&dense_kernel<Tuning::dense_threads, Items, Count, Ids, Shaders...>>(
+      "local_sort_then_dispatch", detail::stream_of(exec),
+      {detail::blocks_for(detail::maximum_of(n), Tuning::dense_threads * Items),
+       Tuning::dense_threads},
+      n, ids, shaders);
 }
 
 // What a request leaves over of the memory that is read or written for it waits in the second-level
@@ -65,15 +66,15 @@ void launch_dense(Policy const& exec, Count n, Ids ids, shader_table<Shaders...>
 template <class Tuning, class Policy, class Count, class Ids, class... Shaders>
 void run_dense_tiles(Policy const& exec, Count n, Ids ids,
                      shader_table<Shaders...> const& shaders) {
-  std::size_t const maximum = maximum_of(n);
-  auto const occupancy = occupancy_of<
+  std::size_t const maximum = detail::maximum_of(n);
+  auto const occupancy = detail::occupancy_of<
       &dense_kernel<Tuning::dense_threads, Tuning::dense_items, Count, Ids, Shaders...>>(
       Tuning::dense_threads);
   std::size_t const threads = occupancy.resident_blocks * Tuning::dense_threads;
   if (threads < maximum && maximum <= threads * Tuning::dense_items) {
-    launch_dense<Tuning, Tuning::dense_items>(exec, n, ids, shaders);
+    detail::launch_dense<Tuning, Tuning::dense_items>(exec, n, ids, shaders);
   } else {
-    launch_dense<Tuning, 1>(exec, n, ids, shaders);
+    detail::launch_dense<Tuning, 1>(exec, n, ids, shaders);
   }
 }
 

@@ -25,7 +25,8 @@ __global__ void masked_kernel(bool first, Count n, Ids ids, Shader const __grid_
   independent_kernel const among_those_of_all_shaders(first);
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   auto const i = static_cast<request_index>(p);
-  if (p < size_of(n) && detail::shader_of(ids, i, Shaders) == Id) detail::call_on_device(shader, i);
+  if (p < detail::size_of(n) && detail::shader_of(ids, i, Shaders) == Id)
+    detail::call_on_device(shader, i);
 }
 
 /// Runs one shader on its segment. The grid does not know how long that is: a block takes one
@@ -51,8 +52,8 @@ struct masked_launches {
   template <shader_id Id, class Shader>
   launch_shape shape() const {
     std::uint32_t const threads =
-        occupancy_of<kernel<Id, Shader>>(shader_traits<Shader>::block_size).threads;
-    return {blocks_for(maximum, threads), threads};
+        detail::occupancy_of<kernel<Id, Shader>>(shader_traits<Shader>::block_size).threads;
+    return {detail::blocks_for(maximum, threads), threads};
   }
 };
 
@@ -67,9 +68,9 @@ struct segment_launches {
   template <shader_id Id, class Shader>
   launch_shape shape() const {
     auto const [threads, resident] =
-        occupancy_of<kernel<Id, Shader>>(shader_traits<Shader>::block_size);
-    std::size_t const share = blocks_for(maximum / shaders, threads);
-    return {(std::min)(blocks_for(maximum, threads), (std::max)(resident, share)), threads};
+        detail::occupancy_of<kernel<Id, Shader>>(shader_traits<Shader>::block_size);
+    std::size_t const share = detail::blocks_for(maximum / shaders, threads);
+    return {(std::min)(detail::blocks_for(maximum, threads), (std::max)(resident, share)), threads};
   }
 };
 
@@ -82,7 +83,8 @@ void launch_each(Launches const& launches, shader_table<Shaders...> const& shade
   shaders.for_each([&](auto id, auto const& shader) {
     using type = std::decay_t<decltype(shader)>;
     if (expected[id]) {
-      check_grid("explicit_serialization", launches.template shape<decltype(id)::value, type>());
+      detail::check_grid("explicit_serialization",
+                         launches.template shape<decltype(id)::value, type>());
     }
   });
   bool first = true;
@@ -99,11 +101,11 @@ template <class Policy, class Count, class Ids, class... Shaders, class Workspac
 void run_explicit(cuda_system, Policy const& exec, Count n, Ids ids,
                   shader_table<Shaders...> const& shaders, Workspace const& scratch) {
   using launches = masked_launches<Count, Ids, Shaders...>;
-  detail::launch_each(launches{maximum_of(n)}, shaders, scratch,
+  detail::launch_each(launches{detail::maximum_of(n)}, shaders, scratch,
                       [&](auto id, auto const& shader, launch_shape shape, bool first) {
                         using type = std::decay_t<decltype(shader)>;
-                        launch<launches::template kernel<decltype(id)::value, type>>(
-                            "explicit_serialization", stream_of(exec), shape, first, n, ids,
+                        detail::launch<launches::template kernel<decltype(id)::value, type>>(
+                            "explicit_serialization", detail::stream_of(exec), shape, first, n, ids,
                             shader);
                       });
 }
@@ -115,8 +117,9 @@ void run_explicit(cuda_system, Policy const& exec, grouping group,
   detail::launch_each(
       launches, shaders, scratch, [&](auto id, auto const& shader, launch_shape shape, bool first) {
         using type = std::decay_t<decltype(shader)>;
-        launch<&segment_kernel<type>>("explicit_serialization", stream_of(exec), shape, first,
-                                      group.permutation, group.offsets + id, shader);
+        detail::launch<&segment_kernel<type>>("explicit_serialization", detail::stream_of(exec),
+                                              shape, first, group.permutation, group.offsets + id,
+                                              shader);
       });
 }
 

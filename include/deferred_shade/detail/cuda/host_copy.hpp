@@ -20,22 +20,22 @@ inline namespace DEFERRED_SHADE_ARCHITECTURES {
 /// The number of requests, once the stream has come to it; as checked_count, with what it throws.
 template <class Integer>
 request_index count_on_host(std::string const& caller, cudaStream_t, Integer n) {
-  return checked_count(caller, n);
+  return detail::checked_count(caller, n);
 }
 template <class Integer>
 request_index count_on_host(std::string const& caller, cudaStream_t stream,
                             device_count<Integer> n) {
-  checked_maximum(caller, n);
+  detail::checked_maximum(caller, n);
   Integer count{};
-  check_cuda(cudaMemcpyAsync(&count, n.pointer, sizeof count, cudaMemcpyDefault, stream),
-             "reading a device_count");
-  check_cuda(cudaStreamSynchronize(stream), "reading a device_count");
-  return checked_count(caller, device_count<Integer>{&count, n.maximum});
+  detail::check_cuda(cudaMemcpyAsync(&count, n.pointer, sizeof count, cudaMemcpyDefault, stream),
+                     "reading a device_count");
+  detail::check_cuda(cudaStreamSynchronize(stream), "reading a device_count");
+  return detail::checked_count(caller, device_count<Integer>{&count, n.maximum});
 }
 
 template <class Ids>
 __global__ void copy_ids_kernel(std::size_t n, Ids ids, shader_id* copy) {
-  begin_after_earlier_kernels();
+  detail::begin_after_earlier_kernels();
   std::size_t const i = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   if (i >= n) return;
   constexpr auto none = static_cast<shader_id>(-1);  // which no table reaches
@@ -53,12 +53,12 @@ std::vector<shader_id> ids_on_host(cudaStream_t stream, std::size_t n, Ids ids) 
     ~buffer() { cuda_allocator<shader_id>().deallocate(ids, 0); }
     shader_id* ids;
   } const device(n);
-  launch<&copy_ids_kernel<Ids>>("copying ids", stream, {blocks_for(n, 256), 256}, n, ids,
-                                device.ids);
-  check_cuda(cudaMemcpyAsync(copy.data(), device.ids, n * sizeof(shader_id), cudaMemcpyDeviceToHost,
-                             stream),
-             "copying ids");
-  check_cuda(cudaStreamSynchronize(stream), "copying ids");
+  detail::launch<&copy_ids_kernel<Ids>>("copying ids", stream, {detail::blocks_for(n, 256), 256}, n,
+                                        ids, device.ids);
+  detail::check_cuda(cudaMemcpyAsync(copy.data(), device.ids, n * sizeof(shader_id),
+                                     cudaMemcpyDeviceToHost, stream),
+                     "copying ids");
+  detail::check_cuda(cudaStreamSynchronize(stream), "copying ids");
   return copy;
 }
 

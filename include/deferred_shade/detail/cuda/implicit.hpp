@@ -24,10 +24,10 @@ inline namespace DEFERRED_SHADE_ARCHITECTURES {
 template <class Count, class Ids, class... Shaders>
 __global__ void switch_kernel(Count n, Ids ids,
                               shader_list<Shaders...> const __grid_constant__ shaders) {
-  begin_after_earlier_kernels();
+  detail::begin_after_earlier_kernels();
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   auto const i = static_cast<request_index>(p);
-  if (p < size_of(n)) {
+  if (p < detail::size_of(n)) {
     shaders.visit(detail::shader_of(ids, i, sizeof...(Shaders)), run_on_device{i});
   }
 }
@@ -41,9 +41,9 @@ __global__ void records_kernel(Count n, Ids ids,
                                bool one_place) {
   using request = typename staging<Shaders...>::request;
   using result = typename staging<Shaders...>::result;
-  begin_after_earlier_kernels();
+  detail::begin_after_earlier_kernels();
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
-  if (p >= size_of(n)) return;
+  if (p >= detail::size_of(n)) return;
   auto const i = static_cast<request_index>(p);
   shader_id const id = detail::shader_of(ids, i, sizeof...(Shaders));
   if (id == sizeof...(Shaders)) return;
@@ -72,7 +72,7 @@ __global__ void records_kernel(Count n, Ids ids,
 template <class... Shaders>
 __global__ void segments_kernel(request_index const* permutation, request_index const* offsets,
                                 shader_list<Shaders...> const __grid_constant__ shaders) {
-  begin_after_earlier_kernels();
+  detail::begin_after_earlier_kernels();
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   if (p >= offsets[sizeof...(Shaders)]) return;
   request_index const* const ends = offsets + 1;
@@ -98,18 +98,19 @@ bool have_one_place(shader_table<Shaders...> const& shaders) {
 template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
 void run_implicit(cuda_system, Policy const& exec, Count n, Ids ids,
                   shader_table<Shaders...> const& shaders, Workspace const&) {
-  std::size_t const maximum = maximum_of(n);
+  std::size_t const maximum = detail::maximum_of(n);
   constexpr bool records = staging<Shaders...>::possible;
   constexpr std::uint32_t threads =
       cuda_tuning_of<Workspace>::switch_threads(sizeof...(Shaders), records);
   if constexpr (records) {
-    launch<&records_kernel<Count, Ids, Shaders...>>("implicit_serialization", stream_of(exec),
-                                                    {blocks_for(maximum, threads), threads}, n, ids,
-                                                    shaders, have_one_place(shaders));
+    detail::launch<&records_kernel<Count, Ids, Shaders...>>(
+        "implicit_serialization", detail::stream_of(exec),
+        {detail::blocks_for(maximum, threads), threads}, n, ids, shaders,
+        detail::have_one_place(shaders));
   } else {
-    launch<&switch_kernel<Count, Ids, Shaders...>>("implicit_serialization", stream_of(exec),
-                                                   {blocks_for(maximum, threads), threads}, n, ids,
-                                                   shaders);
+    detail::launch<&switch_kernel<Count, Ids, Shaders...>>(
+        "implicit_serialization", detail::stream_of(exec),
+        {detail::blocks_for(maximum, threads), threads}, n, ids, shaders);
   }
 }
 
@@ -117,9 +118,10 @@ template <class Policy, class... Shaders, class Workspace>
 void run_implicit(cuda_system, Policy const& exec, grouping group,
                   shader_table<Shaders...> const& shaders, Workspace const&) {
   constexpr std::uint32_t threads = cuda_tuning_of<Workspace>::grouped_switch_threads;
-  launch<&segments_kernel<Shaders...>>("implicit_serialization", stream_of(exec),
-                                       {blocks_for(group.maximum, threads), threads},
-                                       group.permutation, group.offsets, shaders);
+  detail::launch<&segments_kernel<Shaders...>>(
+      "implicit_serialization", detail::stream_of(exec),
+      {detail::blocks_for(group.maximum, threads), threads}, group.permutation, group.offsets,
+      shaders);
 }
 
 }  // namespace DEFERRED_SHADE_ARCHITECTURES

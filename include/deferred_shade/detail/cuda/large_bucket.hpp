@@ -25,11 +25,11 @@ template <shader_id Shaders, class Count, class Ids>
 __global__ void __launch_bounds__(bucket_threads)
     large_bucket_count_kernel(Count n, Ids ids, std::uint32_t* counts) {
   __shared__ std::uint32_t shared[Shaders + 1];
-  begin_after_earlier_kernels();
+  detail::begin_after_earlier_kernels();
   for (std::uint32_t k = threadIdx.x; k <= Shaders; k += bucket_threads) shared[k] = 0;
   __syncthreads();
   std::uint32_t keys[bucket_items];
-  tile_of_block(size_of(n)).load_neighbours_of_thread<Shaders>(ids, keys);
+  tile_of_block(detail::size_of(n)).load_neighbours_of_thread<Shaders>(ids, keys);
   std::uint32_t length = 0;
 #pragma unroll
   for (std::uint32_t item = 0; item < bucket_items; ++item) {
@@ -58,8 +58,8 @@ __global__ void __launch_bounds__(bucket_threads,
   } shared;
   __shared__ std::uint32_t starts[sort::columns];
   __shared__ std::uint32_t shift[Shaders];  // from places in the tile to places in the batch
-  begin_after_earlier_kernels();
-  tile_of_block const tile(size_of(n));
+  detail::begin_after_earlier_kernels();
+  tile_of_block const tile(detail::size_of(n));
   std::uint32_t keys[bucket_items];
   std::uint32_t ranks[bucket_items];
   sort::load(ids, tile.first, tile.size, keys);
@@ -88,26 +88,26 @@ __global__ void __launch_bounds__(bucket_threads,
 
 template <shader_id Shaders, class Count, class Ids, class Workspace>
 grouping large_bucket_grouping(cudaStream_t stream, Count n, Ids ids, Workspace& scratch) {
-  std::size_t const maximum = maximum_of(n);
+  std::size_t const maximum = detail::maximum_of(n);
   std::size_t const tiles = (std::max)(std::size_t{1}, (maximum + bucket_tile - 1) / bucket_tile);
   auto const scan = [&](void* memory, std::size_t& bytes, std::uint32_t* counts) {
-    check_cuda(
+    detail::check_cuda(
         cub::DeviceScan::ExclusiveSum(memory, bytes, counts, counts,
                                       static_cast<std::int64_t>(tiles * Shaders + 1), stream),
         "bucket scan");
   };
-  forget_earlier_error();
+  detail::forget_earlier_error();
   std::size_t bytes = 0;
   scan(nullptr, bytes, nullptr);
   auto const [permutation, counts, memory, offsets] =
       scratch.take(elements<request_index>(maximum), elements<std::uint32_t>(tiles * Shaders + 1),
                    elements<std::byte>(bytes), elements<request_index>(Shaders + 1));
   launch_shape const shape{tiles, bucket_threads};
-  launch<&large_bucket_count_kernel<Shaders, Count, Ids>>("bucket count", stream, shape, n, ids,
-                                                          counts);
+  detail::launch<&large_bucket_count_kernel<Shaders, Count, Ids>>("bucket count", stream, shape, n,
+                                                                  ids, counts);
   scan(memory, bytes, counts);
-  launch<&large_bucket_place_kernel<Shaders, Count, Ids>>("bucket place", stream, shape, n, ids,
-                                                          counts, permutation, offsets);
+  detail::launch<&large_bucket_place_kernel<Shaders, Count, Ids>>(
+      "bucket place", stream, shape, n, ids, counts, permutation, offsets);
   return {permutation, offsets, maximum};
 }
 

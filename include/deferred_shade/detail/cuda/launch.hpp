@@ -49,7 +49,7 @@ struct launch_shape {
 /// The number of the current device.
 inline int current_device() {
   int device = 0;
-  check_cuda(cudaGetDevice(&device), "looking for a CUDA device");
+  detail::check_cuda(cudaGetDevice(&device), "looking for a CUDA device");
   return device;
 }
 
@@ -71,14 +71,14 @@ template <auto Kernel>
 bool may_start_early() {
   thread_local int known_device = -1;
   thread_local bool known = false;
-  int const device = current_device();
+  int const device = detail::current_device();
   if (device == known_device) return known;
   int major = 0;
-  check_cuda(cudaDeviceGetAttribute(&major, cudaDevAttrComputeCapabilityMajor, device),
-             "compute capability");
+  detail::check_cuda(cudaDeviceGetAttribute(&major, cudaDevAttrComputeCapabilityMajor, device),
+                     "compute capability");
   cudaFuncAttributes attributes{};
-  check_cuda(cudaFuncGetAttributes(&attributes, Kernel), "looking for a kernel");
-  known = is_compiled_for_overlap() && major >= 9 && attributes.ptxVersion >= 90;
+  detail::check_cuda(cudaFuncGetAttributes(&attributes, Kernel), "looking for a kernel");
+  known = detail::is_compiled_for_overlap() && major >= 9 && attributes.ptxVersion >= 90;
   known_device = device;
   return known;
 }
@@ -91,7 +91,7 @@ inline void check_grid(char const* what, launch_shape shape) {
                             " blocks of " + std::to_string(shape.threads) +
                             " threads, where a grid has at most " + std::to_string(most) +
                             "; let the shader have a larger block_size";
-  check_cuda(cudaErrorInvalidConfiguration, doing.c_str());
+  detail::check_cuda(cudaErrorInvalidConfiguration, doing.c_str());
 }
 
 /// Launches `Kernel` on `stream`; throws where CUDA refuses: `what` says which one it was. `Kernel`
@@ -100,16 +100,16 @@ template <auto Kernel, class... Arguments>
 void launch(char const* what, cudaStream_t stream, launch_shape shape,
             Arguments const&... arguments) {
   if (shape.blocks == 0) return;
-  check_grid(what, shape);
+  detail::check_grid(what, shape);
   if (shape.shared_bytes > 0) {  // with what the kernel has itself, it may be more than the default
-    check_cuda(cudaFuncSetAttribute(Kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
-                                    static_cast<int>(shape.shared_bytes)),
-               what);
+    detail::check_cuda(cudaFuncSetAttribute(Kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
+                                            static_cast<int>(shape.shared_bytes)),
+                       what);
   }
   if (shape.prefers_cache) {
-    check_cuda(cudaFuncSetAttribute(Kernel, cudaFuncAttributePreferredSharedMemoryCarveout,
-                                    cudaSharedmemCarveoutMaxL1),
-               what);
+    detail::check_cuda(cudaFuncSetAttribute(Kernel, cudaFuncAttributePreferredSharedMemoryCarveout,
+                                            cudaSharedmemCarveoutMaxL1),
+                       what);
   }
   cudaLaunchAttribute early{};
   early.id = cudaLaunchAttributeProgrammaticStreamSerialization;
@@ -120,8 +120,8 @@ void launch(char const* what, cudaStream_t stream, launch_shape shape,
   config.dynamicSmemBytes = shape.shared_bytes;
   config.stream = stream;
   config.attrs = &early;
-  config.numAttrs = may_start_early<Kernel>() ? 1 : 0;
-  check_cuda(cudaLaunchKernelEx(&config, Kernel, arguments...), what);
+  config.numAttrs = detail::may_start_early<Kernel>() ? 1 : 0;
+  detail::check_cuda(cudaLaunchKernelEx(&config, Kernel, arguments...), what);
 }
 
 /// The blocks of `threads` that hold `n` threads.
@@ -132,8 +132,9 @@ constexpr std::size_t blocks_for(std::size_t n, std::uint32_t threads) {
 /// The multiprocessors of the current device.
 inline std::size_t multiprocessors() {
   int count = 0;
-  check_cuda(cudaDeviceGetAttribute(&count, cudaDevAttrMultiProcessorCount, current_device()),
-             "multiprocessor count");
+  detail::check_cuda(
+      cudaDeviceGetAttribute(&count, cudaDevAttrMultiProcessorCount, detail::current_device()),
+      "multiprocessor count");
   return static_cast<std::size_t>(count);
 }
 

@@ -27,19 +27,20 @@ kernel_occupancy occupancy_of(int threads) {
   thread_local int known_device = -1;
   thread_local int known_threads = -1;
   thread_local kernel_occupancy known{};
-  int const device = current_device();
+  int const device = detail::current_device();
   if (device == known_device && threads == known_threads) return known;
   int const wanted_threads = threads;
   int blocks = 0;
   if (threads == 0) {
-    check_cuda(cudaOccupancyMaxPotentialBlockSize(&blocks, &threads, Kernel, 0, explicit_threads),
-               "occupancy");
+    detail::check_cuda(
+        cudaOccupancyMaxPotentialBlockSize(&blocks, &threads, Kernel, 0, explicit_threads),
+        "occupancy");
   }
-  check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, Kernel, threads, 0),
-             "occupancy");
+  detail::check_cuda(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks, Kernel, threads, 0),
+                     "occupancy");
   if (blocks == 0) {
     std::string const doing = "finding room for a block of " + std::to_string(threads) + " threads";
-    check_cuda(cudaErrorInvalidConfiguration, doing.c_str());
+    detail::check_cuda(cudaErrorInvalidConfiguration, doing.c_str());
   }
   known = {static_cast<std::uint32_t>(threads),
            static_cast<std::size_t>(blocks) * multiprocessors()};

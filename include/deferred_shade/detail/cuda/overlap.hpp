@@ -33,8 +33,8 @@ __device__ inline void let_next_kernel_start() {
 
 /// How a kernel begins that needs all that was launched before it.
 __device__ inline void begin_after_earlier_kernels() {
-  wait_for_earlier_kernels();
-  let_next_kernel_start();
+  detail::wait_for_earlier_kernels();
+  detail::let_next_kernel_start();
 }
 
 /// One kernel of several that do not need each other: only the first waits for what was launched
@@ -42,12 +42,12 @@ __device__ inline void begin_after_earlier_kernels() {
 class independent_kernel {
  public:
   __device__ explicit independent_kernel(bool first) : first_(first) {
-    if (first) wait_for_earlier_kernels();
-    let_next_kernel_start();
+    if (first) detail::wait_for_earlier_kernels();
+    detail::let_next_kernel_start();
   }
   independent_kernel(independent_kernel const&) = delete;
   __device__ ~independent_kernel() {
-    if (!first_ && blockIdx.x == 0) wait_for_earlier_kernels();
+    if (!first_ && blockIdx.x == 0) detail::wait_for_earlier_kernels();
   }
 
  private:

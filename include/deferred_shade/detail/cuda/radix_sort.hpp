@@ -20,18 +20,18 @@ inline namespace DEFERRED_SHADE_ARCHITECTURES {
 template <shader_id Shaders, class Key, class Count, class Ids>
 __global__ void radix_pairs_kernel(std::size_t maximum, Count n, Ids ids, Key* keys,
                                    request_index* indices) {
-  begin_after_earlier_kernels();
+  detail::begin_after_earlier_kernels();
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   if (p >= maximum) return;
   auto const i = static_cast<request_index>(p);
-  keys[i] = static_cast<Key>(i < size_of(n) ? detail::shader_of(ids, i, Shaders) : Shaders);
+  keys[i] = static_cast<Key>(i < detail::size_of(n) ? detail::shader_of(ids, i, Shaders) : Shaders);
   indices[i] = i;
 }
 
 /// offsets[k] becomes the number of keys below k.
 template <shader_id Shaders, class Key>
 __global__ void radix_offsets_kernel(std::size_t size, Key const* keys, request_index* offsets) {
-  begin_after_earlier_kernels();
+  detail::begin_after_earlier_kernels();
   std::uint32_t const k = blockIdx.x * blockDim.x + threadIdx.x;
   if (k > Shaders) return;
   std::size_t first = 0;
@@ -48,15 +48,15 @@ template <shader_id Shaders, class Policy, class Count, class Ids, class Workspa
 grouping radix_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Workspace& scratch) {
   using key = sort_key<Shaders>;
   constexpr std::uint32_t threads = 256;
-  std::size_t const maximum = maximum_of(n);
-  cudaStream_t const stream = stream_of(exec);
-  forget_earlier_error();
+  std::size_t const maximum = detail::maximum_of(n);
+  cudaStream_t const stream = detail::stream_of(exec);
+  detail::forget_earlier_error();
   auto const sort = [&](void* memory, std::size_t& bytes, cub::DoubleBuffer<key>& keys,
                         cub::DoubleBuffer<request_index>& indices) {
-    check_cuda(cub::DeviceRadixSort::SortPairs(memory, bytes, keys, indices,
-                                               static_cast<std::int64_t>(maximum), 0,
-                                               bits_for(Shaders), stream),
-               "radix sort");
+    detail::check_cuda(cub::DeviceRadixSort::SortPairs(memory, bytes, keys, indices,
+                                                       static_cast<std::int64_t>(maximum), 0,
+                                                       detail::bits_for(Shaders), stream),
+                       "radix sort");
   };
   std::size_t bytes = 0;
   cub::DoubleBuffer<key> keys(nullptr, nullptr);
@@ -68,13 +68,13 @@ grouping radix_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Works
                    elements<request_index>(Shaders + 1));
   keys = {keys_0, keys_1};
   indices = {indices_0, indices_1};
-  launch<&radix_pairs_kernel<Shaders, key, Count, Ids>>("radix sort's pairs", stream,
-                                                        {blocks_for(maximum, threads), threads},
-                                                        maximum, n, ids, keys_0, indices_0);
+  detail::launch<&radix_pairs_kernel<Shaders, key, Count, Ids>>(
+      "radix sort's pairs", stream, {detail::blocks_for(maximum, threads), threads}, maximum, n,
+      ids, keys_0, indices_0);
   sort(memory, bytes, keys, indices);
-  launch<&radix_offsets_kernel<Shaders, key>>("radix sort's offsets", stream,
-                                              {blocks_for(Shaders + 1, threads), threads}, maximum,
-                                              keys.Current(), offsets);
+  detail::launch<&radix_offsets_kernel<Shaders, key>>(
+      "radix sort's offsets", stream, {detail::blocks_for(Shaders + 1, threads), threads}, maximum,
+      keys.Current(), offsets);
   return {indices.Current(), offsets, maximum};
 }
 

@@ -33,9 +33,9 @@ __device__ std::uint32_t lanes_with_my_key(std::uint32_t key) {
   std::uint32_t const lane = threadIdx.x % warp_size;
   std::uint32_t lanes = all_lanes;
 #pragma unroll
-  for (int bit = 0; bit < bits_for(Shaders); ++bit) {
+  for (int bit = 0; bit < detail::bits_for(Shaders); ++bit) {
     std::uint32_t const mine = (lane & 1U << bit) != 0 ? 0 : all_lanes;
-    lanes &= lanes_with_bit(key, 1U << bit) ^ mine;
+    lanes &= detail::lanes_with_bit(key, 1U << bit) ^ mine;
   }
   return lanes;
 }
@@ -55,7 +55,7 @@ __device__ std::uint32_t rank_in_warp(std::uint32_t const (&keys)[Items],
     // A lane learns which lanes name the shader that it looks after, and then asks the lane that
     // looks after its own request's shader for the requests before it.
     int const keeper = static_cast<int>(keys[row]);
-    std::uint32_t const lanes = lanes_with_my_key<Shaders>(keys[row]);
+    std::uint32_t const lanes = detail::lanes_with_my_key<Shaders>(keys[row]);
     std::uint32_t const peers = __shfl_sync(all_lanes, lanes, keeper);
     std::uint32_t const before = __shfl_sync(all_lanes, count, keeper);
     ranks[row] = before + static_cast<unsigned>(__popc(peers & below));

@@ -34,8 +34,8 @@ template <shader_id Shaders, class Count, class Ids>
 __global__ void __launch_bounds__(bucket_threads)
     small_bucket_count_kernel(Count n, Ids ids, tile_count_layout layout, std::uint32_t* counts) {
   __shared__ tile_counts<Shaders> counters;
-  begin_after_earlier_kernels();
-  counters.count(ids, tile_of_block(size_of(n)),
+  detail::begin_after_earlier_kernels();
+  counters.count(ids, tile_of_block(detail::size_of(n)),
                  [&](shader_id k, std::uint32_t count) { counts[layout(k, blockIdx.x)] = count; });
 }
 
@@ -48,10 +48,10 @@ __global__ void __launch_bounds__(bucket_threads,
   __shared__ sorted_bucket_tile<Shaders> sorted;
   __shared__ typename Output::shared_memory shared;
   // The kernel that counted has waited for what wrote the ids: only its own counts may still lack.
-  let_next_kernel_start();
-  tile_of_block const tile(size_of(n));
+  detail::let_next_kernel_start();
+  tile_of_block const tile(detail::size_of(n));
   auto const [start, used] = sorted.sort(ids, tile);
-  wait_for_earlier_kernels();
+  detail::wait_for_earlier_kernels();
   output.prepare(shared);
   __syncthreads();
   std::uint32_t const shift = output.place_of_lane(shared) - start;
@@ -73,8 +73,8 @@ __global__ void __launch_bounds__(Threads)
   using block_scan = cub::BlockScan<std::uint32_t, Threads>;
   constexpr std::uint32_t items = 4;
   __shared__ typename block_scan::TempStorage shared;
-  let_next_kernel_start();  // as small_bucket_place_kernel
-  wait_for_earlier_kernels();
+  detail::let_next_kernel_start();  // as small_bucket_place_kernel
+  detail::wait_for_earlier_kernels();
   std::uint32_t* const row = counts + std::size_t{blockIdx.x} * tiles;
   std::uint32_t total = 0;
   for (std::uint32_t first = 0; first < tiles; first += Threads * items) {
@@ -110,7 +110,7 @@ struct bucket_output {
   __device__ std::uint32_t place_of_lane(shared_memory const&) const {
     std::uint32_t const lane = threadIdx.x % warp_size;
     std::uint32_t const total = lane < Shaders ? totals[lane] : 0;
-    std::uint32_t const offset = exclusive_sum_of_warp(total);
+    std::uint32_t const offset = detail::exclusive_sum_of_warp(total);
     if (blockIdx.x == 0 && threadIdx.x == lane && lane < Shaders) {
       offsets[lane] = offset;
       if (lane == Shaders - 1) offsets[Shaders] = offset + total;
@@ -125,19 +125,19 @@ struct bucket_output {
 
 template <shader_id Shaders, class Count, class Ids, class Workspace>
 grouping small_bucket_grouping(cudaStream_t stream, Count n, Ids ids, Workspace& scratch) {
-  std::size_t const maximum = maximum_of(n);
-  std::size_t const tiles = (std::max)(std::size_t{1}, blocks_for(maximum, bucket_tile));
+  std::size_t const maximum = detail::maximum_of(n);
+  std::size_t const tiles = (std::max)(std::size_t{1}, detail::blocks_for(maximum, bucket_tile));
   auto const [permutation, counts, totals, offsets] =
       scratch.take(elements<request_index>(maximum), elements<std::uint32_t>(tiles * Shaders),
                    elements<std::uint32_t>(Shaders), elements<request_index>(Shaders + 1));
   using output = bucket_output<Shaders>;
   auto const row = static_cast<std::uint32_t>(tiles);
   launch_shape const shape{tiles, bucket_threads};
-  launch<&small_bucket_count_kernel<Shaders, Count, Ids>>("bucket count", stream, shape, n, ids,
-                                                          tile_count_layout{row, 1}, counts);
-  launch<&small_bucket_scan_kernel<>>("bucket scan", stream, {Shaders, bucket_scan_threads}, row,
-                                      counts, totals);
-  launch<&small_bucket_place_kernel<Shaders, Count, Ids, output>>(
+  detail::launch<&small_bucket_count_kernel<Shaders, Count, Ids>>(
+      "bucket count", stream, shape, n, ids, tile_count_layout{row, 1}, counts);
+  detail::launch<&small_bucket_scan_kernel<>>("bucket scan", stream, {Shaders, bucket_scan_threads},
+                                              row, counts, totals);
+  detail::launch<&small_bucket_place_kernel<Shaders, Count, Ids, output>>(
       "bucket place", stream, shape, n, ids, output{counts, totals, permutation, offsets});
   return {permutation, offsets, maximum};
 }

@@ -28,7 +28,7 @@ class sorted_bucket_tile {
   /// Sorts a tile. Called by all threads of the block; a barrier must follow.
   template <class Ids>
   __device__ segment sort(Ids const& ids, tile_of_block tile) {
-    if constexpr (counts_in_registers(Shaders)) {
+    if constexpr (detail::counts_in_registers(Shaders)) {
       return sort_by_threads(ids, tile);
     } else {
       return sort_by_lanes(ids, tile);
@@ -62,7 +62,7 @@ class sorted_bucket_tile {
       if (w == warp) before = total;
       total += of_warp_[w][lane];
     }
-    std::uint32_t const start = exclusive_sum_of_warp(total);
+    std::uint32_t const start = detail::exclusive_sum_of_warp(total);
     begin = start + before;
     return {start, __shfl_sync(all_lanes, start + total, static_cast<int>(Shaders - 1))};
   }
@@ -76,12 +76,12 @@ class sorted_bucket_tile {
     std::uint32_t keys[bucket_items];
     tile.load_neighbours_of_thread<Shaders>(ids, keys);
     std::uint32_t sums[counts::words];
-    counts::count(to_four_bits(keys), sums);
+    counts::count(detail::to_four_bits(keys), sums);
     std::uint32_t of_lane = 0;
 #pragma unroll
     for (std::uint32_t j = 0; j < counts::words; ++j) {
       std::uint32_t const mine = sums[j];
-      sums[j] = exclusive_sum_of_warp(mine);
+      sums[j] = detail::exclusive_sum_of_warp(mine);
       std::uint32_t const all = __shfl_sync(all_lanes, sums[j] + mine, warp_size - 1);
       if (counts::word_of(lane) == j) of_lane = counts::count_of(lane, all);
     }
@@ -114,9 +114,10 @@ class sorted_bucket_tile {
     std::uint32_t const warp = threadIdx.x / warp_size;
     std::uint32_t const mine = warp * warp_size * bucket_items + lane;
     std::uint32_t keys[bucket_items];
-    load_rows<Shaders>(ids, tile.first + mine, mine < tile.size ? tile.size - mine : 0, keys);
+    detail::load_rows<Shaders>(ids, tile.first + mine, mine < tile.size ? tile.size - mine : 0,
+                               keys);
     std::uint32_t ranks[bucket_items];
-    of_warp_[warp][lane] = rank_in_warp<Shaders>(keys, ranks);
+    of_warp_[warp][lane] = detail::rank_in_warp<Shaders>(keys, ranks);
     __syncthreads();
     std::uint32_t begin;
     segment const result = find_segment(begin);

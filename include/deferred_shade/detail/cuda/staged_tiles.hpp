@@ -46,9 +46,9 @@ __global__ void __launch_bounds__(Threads)
     return reinterpret_cast<char*>(slots) + position * records::slot;
   };
 
-  begin_after_earlier_kernels();
+  detail::begin_after_earlier_kernels();
   std::size_t const tile = std::size_t{blockIdx.x} * sort::size;
-  std::size_t const end = size_of(n);
+  std::size_t const end = detail::size_of(n);
   if (tile >= end) return;
   auto const first = static_cast<request_index>(tile);
   auto const size = static_cast<std::uint32_t>((min)(std::size_t{sort::size}, end - tile));
@@ -119,9 +119,9 @@ void run_staged(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> c
       one_source = one_source && shader.source == shaders.template get<0>().source;
     });
   }
-  launch<&staged_kernel<threads, items, Count, Ids, Shaders...>>(
-      "local_sort_then_dispatch", stream_of(exec),
-      {(maximum_of(n) + tile - 1) / tile, threads, tile * records::slot}, n, ids, shaders,
+  detail::launch<&staged_kernel<threads, items, Count, Ids, Shaders...>>(
+      "local_sort_then_dispatch", detail::stream_of(exec),
+      {(detail::maximum_of(n) + tile - 1) / tile, threads, tile * records::slot}, n, ids, shaders,
       one_source);
 }
 

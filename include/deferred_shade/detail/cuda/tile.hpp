@@ -31,9 +31,9 @@ __global__ void __launch_bounds__(Threads)
   __shared__ std::uint32_t starts[sort::columns];
   __shared__ tile_rows<sort> rows;
   __shared__ std::uint16_t order[sort::size];
-  begin_after_earlier_kernels();
+  detail::begin_after_earlier_kernels();
   std::size_t const tile = std::size_t{blockIdx.x} * sort::size;
-  std::size_t const end = size_of(n);
+  std::size_t const end = detail::size_of(n);
   if (tile >= end) return;
   auto const first = static_cast<request_index>(tile);
   auto const size = static_cast<std::uint32_t>((min)(std::size_t{sort::size}, end - tile));
@@ -60,15 +60,16 @@ template <class Count, class Ids, class... Shaders>
 __global__ void __launch_bounds__(bitonic::tile)
     bitonic_kernel(Count n, Ids ids, shader_list<Shaders...> const __grid_constant__ shaders) {
   __shared__ std::uint32_t keys[bitonic::tile];
-  begin_after_earlier_kernels();
+  detail::begin_after_earlier_kernels();
   std::uint32_t const t = threadIdx.x;
   std::size_t const tile = std::size_t{blockIdx.x} * bitonic::tile;
-  std::size_t const end = size_of(n);
+  std::size_t const end = detail::size_of(n);
   if (tile >= end) return;
   auto const first = static_cast<request_index>(tile);
   std::uint32_t key = 0xffffffffU;
   if (tile + t < end) {
-    key = bitonic_key<sizeof...(Shaders)>(detail::shader_of(ids, first + t, sizeof...(Shaders)), t);
+    key = detail::bitonic_key<sizeof...(Shaders)>(
+        detail::shader_of(ids, first + t, sizeof...(Shaders)), t);
   }
   // Each pair of lanes compares what each other holds; one keeps the smaller and one the larger
   // key.
@@ -98,9 +99,9 @@ template <class Policy, class Count, class Ids, class... Shaders, class Workspac
 void run_tiles(cuda_system, bitonic, Policy const& exec, Count n, Ids ids,
                shader_table<Shaders...> const& shaders, Workspace const&) {
   constexpr std::uint32_t threads = bitonic::tile;
-  launch<&bitonic_kernel<Count, Ids, Shaders...>>(
-      "local_sort_then_dispatch<bitonic>", stream_of(exec),
-      {blocks_for(maximum_of(n), threads), threads}, n, ids, shaders);
+  detail::launch<&bitonic_kernel<Count, Ids, Shaders...>>(
+      "local_sort_then_dispatch<bitonic>", detail::stream_of(exec),
+      {detail::blocks_for(detail::maximum_of(n), threads), threads}, n, ids, shaders);
 }
 
 /// Runs every tile as tuning says.
@@ -114,14 +115,14 @@ void run_tiles(cuda_system here, counting, Policy const& exec, Count n, Ids ids,
     detail::run_tiles(here, bitonic{}, exec, n, ids, shaders, scratch);
   } else if constexpr (algorithm == tile_algorithm::staged) {
     static_assert(records, "tuning::tile: this table cannot be staged (docs/limits.md, Records)");
-    run_staged<tuning>(exec, n, ids, shaders);
+    detail::run_staged<tuning>(exec, n, ids, shaders);
   } else if constexpr (algorithm == tile_algorithm::dense) {
-    run_dense_tiles<tuning>(exec, n, ids, shaders);
+    detail::run_dense_tiles<tuning>(exec, n, ids, shaders);
   } else {
     static_assert(sizeof...(Shaders) <= 255, "tuning::tile: rows have counters for 255 shaders");
-    launch<&tile_kernel<tuning::tile_threads, tuning::tile_items, Count, Ids, Shaders...>>(
-        "local_sort_then_dispatch", stream_of(exec),
-        {blocks_for(maximum_of(n), tuning::tile_threads * tuning::tile_items),
+    detail::launch<&tile_kernel<tuning::tile_threads, tuning::tile_items, Count, Ids, Shaders...>>(
+        "local_sort_then_dispatch", detail::stream_of(exec),
+        {detail::blocks_for(detail::maximum_of(n), tuning::tile_threads * tuning::tile_items),
          tuning::tile_threads},
         n, ids, shaders);
   }

@@ -23,7 +23,7 @@ class tile_rows {
       std::uint32_t const k = begin + lane;
       std::uint32_t const count =
           k < shaders ? (starts[k + 1] - starts[k] + warp_size - 1) / warp_size : 0;
-      std::uint32_t const row = total + exclusive_sum_of_warp(count);
+      std::uint32_t const row = total + detail::exclusive_sum_of_warp(count);
       if (k < shaders) first_row_[k] = static_cast<std::uint16_t>(row);
       total = __shfl_sync(all_lanes, row + count, warp_size - 1);
     }

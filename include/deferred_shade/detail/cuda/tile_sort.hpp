@@ -47,7 +47,7 @@ class tile_sort {
   __device__ static void load(Ids const& ids, request_index first, std::uint32_t count,
                               std::uint32_t (&keys)[Items]) {
     std::uint32_t const mine = position(0);
-    load_rows<Shaders>(ids, first + mine, mine < count ? count - mine : 0, keys);
+    detail::load_rows<Shaders>(ids, first + mine, mine < count ? count - mine : 0, keys);
   }
 
   /// Whether a request has a place. With 32 shaders, no lane ranks those that name none.
@@ -63,7 +63,7 @@ class tile_sort {
     if constexpr (has_lanes) {
       std::uint32_t const lane = threadIdx.x % warp_size;
       std::uint32_t const warp = threadIdx.x / warp_size;
-      temporary.of_warp[warp][lane] = rank_in_warp<Shaders>(keys, places);
+      temporary.of_warp[warp][lane] = detail::rank_in_warp<Shaders>(keys, places);
       __syncthreads();
       std::uint32_t before = 0;
       std::uint32_t total = 0;
@@ -72,7 +72,7 @@ class tile_sort {
         if (w == warp) before = total;
         total += temporary.of_warp[w][lane];
       }
-      std::uint32_t const start = exclusive_sum_of_warp(total);
+      std::uint32_t const start = detail::exclusive_sum_of_warp(total);
       if (warp == 0 && lane < Shaders) {
         starts[lane] = start;
         if (lane == Shaders - 1) starts[Shaders] = start + total;

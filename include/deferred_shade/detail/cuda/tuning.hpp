@@ -50,7 +50,7 @@ DEFERRED_SHADE_HOST_DEVICE constexpr bool counts_in_registers(shader_id shaders)
 /// The thread blocks that place buckets on one multiprocessor at a time: as many as registers
 /// allow without spilling.
 DEFERRED_SHADE_HOST_DEVICE constexpr std::uint32_t place_blocks(shader_id shaders) {
-  return counts_in_registers(shaders) ? 6 : 4;
+  return detail::counts_in_registers(shaders) ? 6 : 4;
 }
 /// The same for tables whose counters lie in shared memory.
 inline constexpr std::uint32_t large_place_blocks = 3;

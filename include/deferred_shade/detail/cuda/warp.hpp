@@ -51,7 +51,7 @@ __host__ __device__ constexpr std::uint32_t resident_threads() {
 /// For a launch bound: `wanted` blocks of a multiprocessor, or as many as it holds.
 __host__ __device__ constexpr unsigned blocks_that_fit(std::uint32_t wanted,
                                                        std::uint32_t threads) {
-  std::uint32_t const held = resident_threads() / threads;
+  std::uint32_t const held = detail::resident_threads() / threads;
   return wanted < held ? wanted : held;
 }
 

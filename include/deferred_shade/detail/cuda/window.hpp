@@ -21,7 +21,7 @@ template <std::uint32_t Threads, class... Shaders>
 __global__ void __launch_bounds__(Threads)
     window_kernel(window_grouping windows, std::size_t maximum,
                   shader_list<Shaders...> const __grid_constant__ shaders) {
-  begin_after_earlier_kernels();
+  detail::begin_after_earlier_kernels();
   std::size_t const p = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   std::size_t const window = p / window_size;
   if (p >= maximum || p % window_size >= windows.used[window]) return;
@@ -43,14 +43,14 @@ void run_windows(cuda_system, Policy const& exec, Count n, Ids ids,
   static_assert(sizeof...(Shaders) <= warp_size,
                 "tuning::windows: a table of more than 32 shaders does not run in windows");
   window_grouping const windows =
-      group_windows<sizeof...(Shaders)>(stream_of(exec), n, ids, scratch);
+      detail::group_windows<sizeof...(Shaders)>(detail::stream_of(exec), n, ids, scratch);
   [[maybe_unused]] auto const dispatched = scratch.begin_phase({"dispatch"});
-  std::size_t const maximum = maximum_of(n);
+  std::size_t const maximum = detail::maximum_of(n);
   constexpr std::uint32_t threads = tuning::window_threads(sizeof...(Shaders));
   // Else it would run with what the sort leaves of the first-level cache, next to nothing.
-  launch_shape const shape{blocks_for(maximum, threads), threads, 0, true};
-  launch<&window_kernel<threads, Shaders...>>("window_sort_then_dispatch", stream_of(exec), shape,
-                                              windows, maximum, shaders);
+  launch_shape const shape{detail::blocks_for(maximum, threads), threads, 0, true};
+  detail::launch<&window_kernel<threads, Shaders...>>(
+      "window_sort_then_dispatch", detail::stream_of(exec), shape, windows, maximum, shaders);
 }
 
 }  // namespace DEFERRED_SHADE_ARCHITECTURES

@@ -68,7 +68,7 @@ struct window_output {
       total += shared.totals[w][lane];
       earlier += shared.earlier[w][lane];
     }
-    std::uint32_t const begin = exclusive_sum_of_warp(total);
+    std::uint32_t const begin = detail::exclusive_sum_of_warp(total);
     if (blockIdx.x % window_tiles == 0 && threadIdx.x == Shaders - 1) used[window] = begin + total;
     return window * window_size + begin + earlier;
   }
@@ -81,16 +81,16 @@ struct window_output {
 template <shader_id Shaders, class Count, class Ids, class Workspace>
 window_grouping group_windows(cudaStream_t stream, Count n, Ids ids, Workspace& scratch) {
   [[maybe_unused]] auto const grouped = scratch.begin_phase({"group"});
-  std::size_t const maximum = maximum_of(n);
-  std::size_t const tiles = blocks_for(maximum, bucket_tile);
+  std::size_t const maximum = detail::maximum_of(n);
+  std::size_t const tiles = detail::blocks_for(maximum, bucket_tile);
   auto const [sorted, counts, used] =
       scratch.take(elements<std::uint32_t>(maximum), elements<std::uint32_t>(tiles * Shaders),
-                   elements<std::uint32_t>(blocks_for(maximum, window_size)));
+                   elements<std::uint32_t>(detail::blocks_for(maximum, window_size)));
   using output = window_output<Shaders>;
   launch_shape const shape{tiles, bucket_threads};
-  launch<&small_bucket_count_kernel<Shaders, Count, Ids>>("window count", stream, shape, n, ids,
-                                                          tile_count_layout{1, Shaders}, counts);
-  launch<&small_bucket_place_kernel<Shaders, Count, Ids, output>>(
+  detail::launch<&small_bucket_count_kernel<Shaders, Count, Ids>>(
+      "window count", stream, shape, n, ids, tile_count_layout{1, Shaders}, counts);
+  detail::launch<&small_bucket_place_kernel<Shaders, Count, Ids, output>>(
       "window place", stream, shape, n, ids, output{counts, sorted, used});
   return {sorted, used};
 }

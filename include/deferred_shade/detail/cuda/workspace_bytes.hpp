@@ -19,7 +19,7 @@ namespace deferred_shade::detail {
 /// A bound of what CUB takes to scan or select `n` elements: it keeps 16 bytes for each of its
 /// tiles, which have at least 128 elements.
 constexpr std::size_t cub_scan_bytes(std::size_t n) {
-  return array_bytes<std::byte>(n / 8 + 65536);
+  return detail::array_bytes<std::byte>(n / 8 + 65536);
 }
 
 /// The sort keeps keys and indices twice. Besides them, CUB has up to 1024 bytes for each of its
@@ -28,8 +28,8 @@ constexpr std::size_t cub_scan_bytes(std::size_t n) {
 constexpr std::size_t radix_bytes(cuda_system, std::size_t n, std::size_t shaders) {
   std::size_t const key = shaders <= 0xff ? 1 : shaders <= 0xffff ? 2 : 4;
   return 2 * array_bytes<request_index>(n) + 2 * array_bytes<std::byte>(n * key) +
-         array_bytes<std::byte>(4 * n + (std::size_t{3} << 20)) +
-         array_bytes<request_index>(shaders + 1);
+         detail::array_bytes<std::byte>(4 * n + (std::size_t{3} << 20)) +
+         detail::array_bytes<request_index>(shaders + 1);
 }
 
 constexpr std::size_t bucket_bytes(cuda_system where, std::size_t n, std::size_t shaders) {
@@ -37,24 +37,25 @@ constexpr std::size_t bucket_bytes(cuda_system where, std::size_t n, std::size_t
   std::size_t const counted = (std::min)(shaders, std::size_t{511});
   std::size_t const tiles = n / bucket_tile + 1;
   std::size_t const counters = tiles * counted + 1;
-  std::size_t const buckets = array_bytes<request_index>(n) + array_bytes<std::uint32_t>(counters) +
-                              array_bytes<std::uint32_t>(counted) + cub_scan_bytes(counters) +
-                              array_bytes<request_index>(counted + 1);
-  return shaders > counted ? (std::max)(buckets, radix_bytes(where, n, shaders)) : buckets;
+  std::size_t const buckets =
+      detail::array_bytes<request_index>(n) + detail::array_bytes<std::uint32_t>(counters) +
+      detail::array_bytes<std::uint32_t>(counted) + detail::cub_scan_bytes(counters) +
+      detail::array_bytes<request_index>(counted + 1);
+  return shaders > counted ? (std::max)(buckets, detail::radix_bytes(where, n, shaders)) : buckets;
 }
 
 constexpr std::size_t compact_bytes(cuda_system, std::size_t n, std::size_t shaders) {
-  return array_bytes<request_index>(n) + cub_scan_bytes(n) +
-         array_bytes<request_index>(shaders + 1);
+  return detail::array_bytes<request_index>(n) + detail::cub_scan_bytes(n) +
+         detail::array_bytes<request_index>(shaders + 1);
 }
 
 constexpr std::size_t window_bytes(cuda_system where, std::size_t n, std::size_t shaders) {
   std::size_t const tiles = n / bucket_tile + 1;
   std::size_t const counted = (std::min)(shaders, std::size_t{warp_size});
-  std::size_t const windows = array_bytes<std::uint32_t>(n) +
-                              array_bytes<std::uint32_t>(tiles * counted) +
-                              array_bytes<std::uint32_t>(n / window_size + 1);
-  return shaders > counted ? (std::max)(windows, bucket_bytes(where, n, shaders)) : windows;
+  std::size_t const windows = detail::array_bytes<std::uint32_t>(n) +
+                              detail::array_bytes<std::uint32_t>(tiles * counted) +
+                              detail::array_bytes<std::uint32_t>(n / window_size + 1);
+  return shaders > counted ? (std::max)(windows, detail::bucket_bytes(where, n, shaders)) : windows;
 }
 
 }  // namespace deferred_shade::detail
