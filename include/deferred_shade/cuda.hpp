@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cuda_runtime_api.h>
+#include <algorithm>
 #include <cstddef>
+#include <mutex>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <deferred_shade/detail/fail.hpp>
 
@@ -40,6 +43,25 @@ inline void check_cuda(cudaError_t status, char const* doing) {
 /// Before a call of CUB, which would take what the renderer left there for an error of its own.
 inline void forget_earlier_error() { cudaGetLastError(); }
 
+/// Frees memory of a device. CUDA may refuse that while a stream is captured, in this thread or
+/// another one: then the memory is kept, and freed by a later call.
+inline void free_on_device(void* memory) noexcept {
+  static std::mutex mutex;
+  static std::vector<void*> refused;
+  std::lock_guard<std::mutex> const lock(mutex);
+  // In this mode, a capture of this thread does not forbid it, and it does not end the capture.
+  cudaStreamCaptureMode mode = cudaStreamCaptureModeRelaxed;
+  cudaThreadExchangeStreamCaptureMode(&mode);
+  auto const is_freed = [](void* pointer) {
+    if (cudaFree(pointer) == cudaSuccess) return true;
+    cudaGetLastError();
+    return false;
+  };
+  refused.erase(std::remove_if(refused.begin(), refused.end(), is_freed), refused.end());
+  if (!is_freed(memory)) refused.push_back(memory);
+  cudaThreadExchangeStreamCaptureMode(&mode);
+}
+
 }  // namespace detail
 
 /// An allocator of memory on the current CUDA device: what a workspace takes unless it is given
@@ -72,9 +94,7 @@ struct cuda_allocator {
   }
 
   // Waits for what runs on the device.
-  void deallocate(T* memory, std::size_t) noexcept {
-    if (cudaFree(memory) != cudaSuccess) cudaGetLastError();
-  }
+  void deallocate(T* memory, std::size_t) noexcept { detail::free_on_device(memory); }
 
   template <class U>
   bool operator==(cuda_allocator<U> const&) const noexcept {

@@ -43,7 +43,7 @@ auto on_host(cuda_system, std::string const& caller, Policy const& exec, Count n
   cudaStream_t const stream = detail::stream_of(exec);
   request_index const count = detail::count_on_host(caller, stream, n);
   std::vector<shader_id> const copy = detail::ids_on_host(stream, count, ids);
-  return f(thrust::cpp::par, count, copy.data());
+  return f(detail::thrust::cpp::par, count, copy.data());
 }
 #endif
 

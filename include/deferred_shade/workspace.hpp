@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <thrust/memory.h>
 #include <thrust/type_traits/is_execution_policy.h>
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -37,6 +37,24 @@ template <class T>
 inline constexpr bool is_for_hosts_alone<std::allocator<T>> = true;
 
 inline constexpr std::size_t workspace_alignment = 128;
+
+/// A plain pointer for what an allocator gives: one itself, one of Thrust's, or another one that
+/// knows the address as get() or operator->().
+template <class Pointer, class = void>
+inline constexpr bool has_get = false;
+template <class Pointer>
+inline constexpr bool
+    has_get<Pointer, std::void_t<decltype(std::declval<Pointer const&>().get())>> = true;
+template <class Pointer>
+void* raw_pointer(Pointer const& pointer) {
+  if constexpr (std::is_pointer_v<Pointer>) {
+    return static_cast<void*>(pointer);
+  } else if constexpr (has_get<Pointer>) {
+    return static_cast<void*>(pointer.get());
+  } else {
+    return static_cast<void*>(pointer.operator->());
+  }
+}
 
 /// What an array takes of a workspace.
 template <class T>
@@ -75,8 +93,9 @@ struct elements {
 ///     deferred_shade::workspace mine{my_allocator<std::byte>{pool}};
 template <class Allocator = std::allocator<std::byte>>
 class workspace {
-  struct alignas(128) line {
-    std::byte bytes[128];
+  // Not over-aligned: some allocators ignore that, and it is done here.
+  struct line {
+    std::byte bytes[detail::workspace_alignment];
   };
   using traits = typename std::allocator_traits<Allocator>::template rebind_traits<line>;
 
@@ -86,8 +105,9 @@ class workspace {
 
   /// A workspace for the machine that a Thrust execution policy runs on; what else the policy
   /// holds, an allocator of its own say, is not used.
-  template <class Policy, class = std::enable_if_t<thrust::is_execution_policy<Policy>::value &&
-                                                   std::is_default_constructible_v<Allocator>>>
+  template <class Policy,
+            class = std::enable_if_t<detail::thrust::is_execution_policy<Policy>::value &&
+                                     std::is_default_constructible_v<Allocator>>>
   explicit workspace(Policy const&) {}
 
   workspace(workspace&& other) noexcept
@@ -164,14 +184,24 @@ class workspace {
  private:
   template <class T>
   T* place(elements<T> array, std::size_t& used) noexcept {
-    auto* const first = reinterpret_cast<std::byte*>(thrust::raw_pointer_cast(data_)) + used;
+    std::byte* const first = aligned() + used;
     used += detail::array_bytes<T>(array.count);
     return reinterpret_cast<T*>(first);
   }
 
+  // The memory may lie on another machine: nothing is read from it, whatever the type of pointer.
+  std::byte* aligned() const noexcept {
+    if (lines_ == 0) return nullptr;
+    auto const address = reinterpret_cast<std::uintptr_t>(detail::raw_pointer(data_));
+    std::uintptr_t const past = address % detail::workspace_alignment;
+    return reinterpret_cast<std::byte*>(address) +
+           (past == 0 ? 0 : detail::workspace_alignment - past);
+  }
+
   // Frees first: the memory of two batches need not fit side by side.
   void grow(std::size_t bytes) {
-    std::size_t const lines = (bytes + sizeof(line) - 1) / sizeof(line);
+    if (bytes == 0) return;
+    std::size_t const lines = (bytes + sizeof(line) - 1) / sizeof(line) + 1;  // one to align by
     if (lines <= lines_) return;
     release();
     data_ = traits::allocate(allocator_, lines);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a workspace takes of a GPU's memory, from whom, and what happens when there is none left.
-// Covers cuda/allocator.hpp and cuda/runtime.hpp as well.
+// Covers cuda.hpp as well.
 #include <thrust/device_allocator.h>
 #include <thrust/mr/allocator.h>
 #include <thrust/mr/disjoint_pool.h>
@@ -180,4 +180,33 @@ TEST_CASE("a launch that CUDA refuses is an error of CUDA, and harms nothing",
   check(ds::explicit_serialization{});
   check(ds::bucket_then_dispatch<>{});
   check_workspace(scratch);
+}
+
+TEST_CASE("a workspace that ends while a stream is captured gives its memory back", "[cuda]") {
+  auto const free_bytes = [] {
+    std::size_t free = 0, total = 0;
+    test::check_cuda(cudaMemGetInfo(&free, &total));
+    return free;
+  };
+  std::size_t const bytes = std::size_t{256} << 20;
+  ds::workspace first{test::cuda::policy()};  // so that the context is there
+  first.reserve_bytes(1000);
+  std::size_t const before = free_bytes();
+  cudaStream_t stream{};
+  test::check_cuda(cudaStreamCreate(&stream));
+  {
+    ds::workspace scratch{test::cuda::policy()};
+    scratch.reserve_bytes(bytes);
+    CHECK(free_bytes() + bytes <= before);
+    test::check_cuda(cudaStreamBeginCapture(stream, cudaStreamCaptureModeGlobal));
+  }
+  cudaGraph_t graph{};
+  test::check_cuda(cudaStreamEndCapture(stream, &graph));  // the capture is not broken off
+  {
+    ds::workspace next{test::cuda::policy()};
+    next.reserve_bytes(1000);
+  }
+  CHECK(free_bytes() + bytes / 2 >= before);
+  test::check_cuda(cudaGraphDestroy(graph));
+  test::check_cuda(cudaStreamDestroy(stream));
 }

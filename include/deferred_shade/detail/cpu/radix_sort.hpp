@@ -57,10 +57,12 @@ constexpr std::size_t radix_bytes(host_system, std::size_t n, std::size_t shader
 template <class Key>
 void sort_pairs(Key* keys, request_index* indices, std::size_t size, std::byte* temporary) {
   std::size_t const room = (size + 63) / 64 * 64;
-#if DEFERRED_SHADE_HAS_EXCEPTIONS
+#if DEFERRED_SHADE_HAS_EXCEPTIONS && THRUST_HOST_SYSTEM == THRUST_HOST_SYSTEM_CPP
   arena memory(temporary, room * (sizeof(Key) + sizeof(request_index)));
   thrust::stable_sort_by_key(thrust::cpp::par(memory), keys, keys + size, indices);
-#else  // Thrust's sort throws, which does not compile: a counting sort for each byte
+#else
+  // Thrust's sort does not compile: it throws; and where plain pointers belong to another system,
+  // it finds none that it shares with cpp. A counting sort for each byte.
   auto* const other_indices = reinterpret_cast<request_index*>(temporary);
   auto* const other_keys = reinterpret_cast<Key*>(other_indices + room);
   for (std::size_t byte = 0; byte < sizeof(Key); ++byte) {
