@@ -2,11 +2,11 @@
 #pragma once
 
 #include <bitset>
-#include <cstddef>
 #include <type_traits>
 #include <utility>
 
 #include <deferred_shade/config.hpp>
+#include <deferred_shade/detail/ids.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade {
@@ -17,7 +17,8 @@ namespace detail {
 template <shader_id Id, class Shader>
 struct table_slot {
   static_assert(std::is_invocable_v<Shader const&, request_index>,
-                "a shader is called as shader(request_index) and its operator() is const");
+                "deferred_shade: a shader must be callable as shader(request_index), by an "
+                "operator() that is const; pass functions of records to record_shaders");
   Shader shader;
 };
 
@@ -39,31 +40,6 @@ DEFERRED_SHADE_HOST_DEVICE constexpr Shader const& shader_in(
   return slot.shader;
 }
 
-/// Which of the ids 0 to `Size` - 1 a list has, how many these are, and whether it has any other.
-/// By loops: clang limits folds to 256 operands.
-template <std::size_t Size>
-struct listed_ids {
-  bool has[Size] = {};
-  std::size_t count = 0;
-  bool fit = true;
-
-  template <shader_id... Ids>
-  static constexpr listed_ids of() {
-    listed_ids result;
-    shader_id const list[] = {Ids..., 0};
-    for (std::size_t j = 0; j < sizeof...(Ids); ++j) {
-      shader_id const id = list[j];
-      if (id >= Size) {
-        result.fit = false;
-      } else if (!result.has[id]) {
-        result.has[id] = true;
-        ++result.count;
-      }
-    }
-    return result;
-  }
-};
-
 }  // namespace detail
 
 /// Shaders of a table, by their ids.
@@ -84,7 +60,7 @@ struct no_shader {
 ///     deferred_shade::shader_table shaders{matte{film, hits}, glass{film, hits}};
 template <class... Shaders>
 class shader_table {
-  static_assert(sizeof...(Shaders) > 0, "a shader table holds at least one shader");
+  static_assert(sizeof...(Shaders) > 0, "deferred_shade: a shader table must have a shader");
 
  public:
   constexpr explicit shader_table(Shaders... shaders) : shaders_(std::move(shaders)...) {}
@@ -131,9 +107,9 @@ class shader_table {
   /// takes fewer registers. See schedule/specialized.hpp for a choice at run time.
   template <shader_id... Ids>
   constexpr auto only() const {
-    static_assert(sizeof...(Ids) > 0, "a shader table holds at least one shader");
+    static_assert(sizeof...(Ids) > 0, "deferred_shade: only must be given an id");
     static_assert(detail::listed_ids<size()>::template of<Ids...>().fit,
-                  "an id lies outside the table");
+                  "deferred_shade: only must be given ids of the table");
     return only_among<Ids...>(std::make_integer_sequence<shader_id, size()>());
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deferred_shade/config.hpp>  // first: it refuses what is too old
+
 #include <thrust/memory.h>
 #include <thrust/type_traits/is_execution_policy.h>
 #include <algorithm>
@@ -27,9 +29,6 @@ namespace deferred_shade {
 /// std::length_error where that is more than a sixteenth of the address space.
 template <class T>
 struct elements {
-  static_assert(std::is_trivial_v<T>,
-                "a workspace holds trivial types, which it leaves uninitialised");
-  static_assert(alignof(T) <= 128, "a workspace aligns to 128 bytes");
   explicit elements(std::size_t n) : count(n) {
     if (n > static_cast<std::size_t>(-1) / 16 / sizeof(T)) {
       detail::fail<std::length_error>("deferred_shade::elements: an array of " + std::to_string(n) +
@@ -37,6 +36,12 @@ struct elements {
     }
   }
   std::size_t count;
+
+  static_assert(std::is_trivial_v<T>,
+                "deferred_shade: elements of a workspace must be of a trivial type: it leaves them "
+                "uninitialised");
+  static_assert(alignof(T) <= 128,
+                "deferred_shade: elements of a workspace must be aligned to at most 128 bytes");
 };
 
 /// Memory that schedules work in. It grows and never shrinks, so that a renderer that keeps one
@@ -50,6 +55,11 @@ struct elements {
 ///
 ///     deferred_shade::workspace scratch{thrust::omp::par};
 ///     deferred_shade::workspace mine{my_allocator<std::byte>{pool}};
+///
+/// A renderer's own type may stand in its place if it has these members, with the contracts that
+/// they have here: `take(elements<T>...)`, which returns a tuple of pointers; `reserve(n,
+/// shaders)`; and `begin_phase(phase) const`, which returns any object. If it has an
+/// `allocator_type`, `shade` looks at it.
 template <class Allocator = std::allocator<std::byte>>
 class workspace {
   struct alignas(128) line {
@@ -58,6 +68,8 @@ class workspace {
   using traits = typename std::allocator_traits<Allocator>::template rebind_traits<line>;
 
  public:
+  using allocator_type = Allocator;
+
   workspace() = default;
   explicit workspace(Allocator const& allocator) : allocator_(allocator) {}
 
@@ -168,6 +180,11 @@ namespace detail {
 
 template <class System>
 struct allocator_on {
+  static_assert(
+      !std::is_void_v<System>,
+      "deferred_shade: a workspace must be made of an allocator or of an execution policy "
+      "of Thrust's system cpp, omp, tbb or, in code for nvcc, cuda; pass thrust::omp::par, "
+      "for example");
   using type = std::allocator<std::byte>;
 };
 #ifdef __CUDACC__
@@ -180,6 +197,10 @@ struct allocator_on<cuda_system> {
 // An allocator is taken as it is; a policy names the machine that the memory is for.
 template <class T, class = void>
 struct allocator_for : allocator_on<system_of<T>> {};
+template <class Allocator>
+struct allocator_for<workspace<Allocator>> {
+  using type = Allocator;
+};
 template <class T>
 struct allocator_for<T, std::void_t<typename T::value_type>> {
   using type = T;

@@ -27,7 +27,8 @@ template <std::uint32_t Items, class Count, class Ids, class... Shaders>
 __global__ void __launch_bounds__(packed_threads)
     packed_kernel(Count n, Ids ids, shader_table<Shaders...> const __grid_constant__ shaders) {
   using sort = tile_sort<sizeof...(Shaders), packed_threads, Items>;
-  static_assert((sizeof...(Shaders) + 1) * sort::size <= 0x10000, "an entry has 16 bits");
+  static_assert((sizeof...(Shaders) + 1) * sort::size <= 0x10000,
+                "deferred_shade: a shader and a position in a tile must fit in 16 bits");
   __shared__ typename sort::temporary_storage temporary;
   __shared__ std::uint32_t starts[sort::columns];
   __shared__ std::uint16_t order[sort::size];  // shaders and positions
