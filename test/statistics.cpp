@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
 #include <vector>
 
 #include "catch.hpp"
@@ -133,11 +136,73 @@ TEMPLATE_LIST_TEST_CASE("counts over many blocks are exact", "[statistics]", tes
   }
 }
 
-TEST_CASE("statistics refuse counts that no batch has", "[statistics]") {
-  std::uint8_t const ids[1] = {0};
-  CHECK_THROWS_AS(ds::count_occurrences(thrust::cpp::par, -1, &ids[0], 1), std::invalid_argument);
-  CHECK_THROWS_AS(ds::count_occurrences(thrust::cpp::par, std::size_t{1} << 32, &ids[0], 1),
-                  std::length_error);
+TEMPLATE_LIST_TEST_CASE("a shader that does not occur has any cost", "[statistics]",
+                        test::backends) {
+  double const infinity = std::numeric_limits<double>::infinity();
+  double const nan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<std::uint8_t> data(64);
+  for (std::size_t i = 0; i < data.size(); ++i) data[i] = static_cast<std::uint8_t>(i % 2 * 2);
+  auto const ids = test::on<TestType>(data);
+  for (double const other : {infinity, -infinity, nan, -1.0, 0.0, 1e308}) {
+    CAPTURE(other);
+    double const costs[] = {1, other, 3, other};
+    ds::efficiency_model const model{costs, 4};
+    CHECK(ds::heterogeneous_efficiency(TestType::policy(), 64, ids.data(), model) == 0.5);
+    float groups[2] = {};
+    ds::group_efficiency(TestType::policy(), 64, ids.data(), model, groups);
+    CHECK((groups[0] == 0.5F && groups[1] == 0.5F));
+  }
+}
+
+TEST_CASE("the cost of a shader that occurs is finite and not negative", "[statistics]") {
+  std::uint8_t const ids[] = {0, 1, 1, 0};
+  double const infinity = std::numeric_limits<double>::infinity();
+  for (double const wrong : {infinity, -infinity, std::nan(""), -1.0, -1e-300}) {
+    CAPTURE(wrong);
+    double const costs[] = {1, wrong};
+    ds::efficiency_model const model{costs, 2, 4};
+    float group = -7;
+    auto const message = ContainsText("costs[1] is");
+    CHECK_THROWS_WITH(ds::heterogeneous_efficiency(thrust::cpp::par, 4, ids, model), message);
+    CHECK_THROWS_WITH(ds::group_efficiency(thrust::cpp::par, 4, ids, model, &group), message);
+    CHECK_THROWS_AS(ds::group_efficiency(thrust::cpp::par, 4, ids, model, &group),
+                    std::invalid_argument);
+    CHECK(group == -7);
+  }
+}
+
+TEST_CASE("costs may be any finite numbers", "[statistics]") {
+  std::mt19937 engine(test::run_seed());
+  std::uniform_real_distribution<double> exponent(-300, 300);
+  for (int round = 0; round < 50; ++round) {
+    CAPTURE(test::run_seed(), round);
+    std::vector<double> costs(5);
+    for (double& cost : costs) cost = engine() % 4 == 0 ? 0 : std::pow(10, exponent(engine));
+    auto const data = test::make_ids<std::uint8_t>(test::layout::random, 1001, 5,
+                                                   static_cast<std::uint32_t>(engine()));
+    ds::efficiency_model const model{costs.data(), 5, 32};
+    CHECK_THAT(ds::heterogeneous_efficiency(thrust::cpp::par, 1001, data.data(), model),
+               WithinRel(efficiency_by_definition(data, costs, 32), 1e-12));
+    std::vector<float> groups(32);
+    ds::group_efficiency(thrust::cpp::par, 1001, data.data(), model, groups.data());
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      auto const first = data.begin() + static_cast<std::ptrdiff_t>(32 * g);
+      std::vector<std::uint8_t> const group(first, g == 31 ? data.end() : first + 32);
+      bool const free = std::all_of(group.begin(), group.end(),
+                                    [&](auto id) { return id >= 5 || costs[id] == 0; });
+      double const expected = efficiency_by_definition(group, costs, 32);
+      double const actual = static_cast<double>(groups[g]);
+      CHECK((free ? std::isnan(actual) : std::abs(actual - expected) <= 1e-6 * expected));
+    }
+  }
+  // Sums that no double holds.
+  std::uint8_t const ids[] = {0, 1, 0, 1};
+  double const costs[] = {1.5e308, 1.5e308};
+  ds::efficiency_model const model{costs, 2, 4};
+  float group = 0;
+  CHECK(ds::heterogeneous_efficiency(thrust::cpp::par, 4, ids, model) == 0.5);
+  ds::group_efficiency(thrust::cpp::par, 4, ids, model, &group);
+  CHECK(group == 0.5F);
 }
 
 TEST_CASE("the shaders that occur are those of the table that was counted", "[statistics]") {
@@ -147,15 +212,4 @@ TEST_CASE("the shaders that occur are those of the table that was counted", "[st
   // One that is larger by one would take the requests that name no shader for the last one's.
   CHECK_THROWS_AS(counts.occurring<4>(), std::invalid_argument);
   CHECK_THROWS_AS(counts.occurring<2>(), std::invalid_argument);
-}
-
-TEST_CASE("a group has at least one lane", "[statistics]") {
-  std::uint8_t const ids[1] = {0};
-  double const costs[1] = {1};
-  ds::efficiency_model const model{costs, 1, 0};
-  float efficiency = 0;
-  CHECK_THROWS_AS(ds::heterogeneous_efficiency(thrust::cpp::par, 1U, ids, model),
-                  std::invalid_argument);
-  CHECK_THROWS_AS(ds::group_efficiency(thrust::cpp::par, 1U, ids, model, &efficiency),
-                  std::invalid_argument);
 }

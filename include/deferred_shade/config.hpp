@@ -1,6 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// First of all: what is too old fails here, and not somewhere in a template.
+#if __has_include(<thrust/version.h>)
+#include <thrust/version.h>
+#if THRUST_VERSION < 200800
+#error \
+    "deferred_shade: this Thrust is too old; take CCCL 2.8 or newer, from CUDA 12.9 or github.com/NVIDIA/cccl, and name its folder before the old one's (-isystem)"
+#endif
+#endif
+#if defined(__CUDA_ARCH__) && __CUDA_ARCH__ < 750
+#error \
+    "deferred_shade: this GPU architecture is too old; compile for sm_75 or newer (nvcc -arch, CMAKE_CUDA_ARCHITECTURES)"
+#endif
+
 /// Marks a function that runs on the host and, where a CUDA compiler is at work, on the device.
 #ifdef __CUDACC__
 #define DEFERRED_SHADE_HOST_DEVICE __host__ __device__

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deferred_shade/config.hpp>  // first: it refuses what is too old
+
 #include <deferred_shade/dispatch.hpp>
 #include <deferred_shade/grouping.hpp>
 #include <deferred_shade/observer.hpp>

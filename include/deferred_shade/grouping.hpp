@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deferred_shade/config.hpp>  // first: it refuses what is too old
+
 #include <bitset>
 
 #include <deferred_shade/detail/cpu/bucket.hpp>
 #include <deferred_shade/detail/cpu/compact.hpp>
 #include <deferred_shade/detail/cpu/radix_sort.hpp>
+#include <deferred_shade/detail/ids.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/types.hpp>
 #ifdef __CUDACC__
@@ -24,8 +27,12 @@ namespace deferred_shade {
 /// The result lives in `scratch` until its next use.
 template <shader_id Shaders, class Policy, class Count, class Ids, class Workspace>
 grouping group_by_bucket(Policy const& exec, Count n, Ids ids, Workspace& scratch) {
-  [[maybe_unused]] auto const grouped = scratch.begin_phase({"group"});
-  return detail::bucket_grouping<Shaders>(detail::system_of<Policy>{}, exec, n, ids, scratch);
+  if constexpr (detail::requirements_of_ids<Ids>::met) {
+    [[maybe_unused]] auto const grouped = scratch.begin_phase({"group"});
+    return detail::bucket_grouping<Shaders>(detail::system_of<Policy>{}, exec, n, ids, scratch);
+  } else {
+    return {};
+  }
 }
 
 /// Groups requests by Thrust's radix sort of (id, index) pairs. The keys are no wider than the
@@ -42,8 +49,12 @@ grouping group_by_bucket(Policy const& exec, Count n, Ids ids, Workspace& scratc
 /// The result lives in `scratch` until its next use.
 template <shader_id Shaders, class Policy, class Count, class Ids, class Workspace>
 grouping group_by_radix_sort(Policy const& exec, Count n, Ids ids, Workspace& scratch) {
-  [[maybe_unused]] auto const grouped = scratch.begin_phase({"group"});
-  return detail::radix_grouping<Shaders>(detail::system_of<Policy>{}, exec, n, ids, scratch);
+  if constexpr (detail::requirements_of_ids<Ids>::met) {
+    [[maybe_unused]] auto const grouped = scratch.begin_phase({"group"});
+    return detail::radix_grouping<Shaders>(detail::system_of<Policy>{}, exec, n, ids, scratch);
+  } else {
+    return {};
+  }
 }
 
 /// Groups requests by one stream compaction per shader, "select, scan, scatter" (Hoberock, Lu, Jia
@@ -57,9 +68,13 @@ grouping group_by_radix_sort(Policy const& exec, Count n, Ids ids, Workspace& sc
 template <shader_id Shaders, class Policy, class Count, class Ids, class Workspace>
 grouping group_by_compaction(Policy const& exec, Count n, Ids ids, Workspace& scratch,
                              std::bitset<Shaders> const& wanted = std::bitset<Shaders>().set()) {
-  [[maybe_unused]] auto const grouped = scratch.begin_phase({"group"});
-  return detail::compact_grouping<Shaders>(detail::system_of<Policy>{}, exec, n, ids, scratch,
-                                           wanted);
+  if constexpr (detail::requirements_of_ids<Ids>::met) {
+    [[maybe_unused]] auto const grouped = scratch.begin_phase({"group"});
+    return detail::compact_grouping<Shaders>(detail::system_of<Policy>{}, exec, n, ids, scratch,
+                                             wanted);
+  } else {
+    return {};
+  }
 }
 
 }  // namespace deferred_shade

@@ -25,6 +25,7 @@ struct find_tuning<Workspace, std::void_t<typename Workspace::tuning_type>> {
 template <class Workspace>
 struct workspace_wrapper {
   using tuning_type = typename find_tuning<Workspace>::type;
+  using allocator_type = typename allocator_of<Workspace>::type;
 
   explicit workspace_wrapper(Workspace& wrapped) : scratch(wrapped) {}
 
@@ -63,8 +64,22 @@ struct observed : detail::workspace_wrapper<Workspace> {
 
   /// Tells the observer; the phase lasts as long as what is returned.
   auto begin_phase(phase const& p) const {
-    static_assert(!std::is_void_v<decltype(observer(p))>, "an observer returns something");
-    return observer(p);
+    constexpr bool is_called = std::is_invocable_v<Observer const&, phase const&>;
+    static_assert(is_called,
+                  "deferred_shade: an observer must be callable as observer(phase), by an "
+                  "operator() that is const");
+    if constexpr (is_called) {
+      constexpr bool returns = !std::is_void_v<std::invoke_result_t<Observer const&, phase const&>>;
+      static_assert(
+          returns, "deferred_shade: an observer must return something; return 0 if it has nothing");
+      if constexpr (returns) {
+        return observer(p);
+      } else {
+        return 0;
+      }
+    } else {
+      return 0;
+    }
   }
 };
 

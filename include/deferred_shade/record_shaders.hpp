@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <deferred_shade/config.hpp>
+#include <deferred_shade/detail/record_types.hpp>
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/shader_traits.hpp>
 #include <deferred_shade/types.hpp>
@@ -48,15 +49,16 @@ struct record_shader {
   Sink sink;
 
   /// What the function is given, by value.
-  using request_type =
-      std::decay_t<decltype(detail::load(std::declval<Source const&>(), request_index{}))>;
+  using request_type = typename detail::record_types<Source, Function, Sink>::request;
   /// What the function returns.
-  using result_type = std::decay_t<std::invoke_result_t<Function const&, request_type const&>>;
+  using result_type = typename detail::record_types<Source, Function, Sink>::result;
 
   DEFERRED_SHADE_EXEC_CHECK_DISABLE
-  DEFERRED_SHADE_HOST_DEVICE void operator()(request_index i) const {
-    request_type const request = detail::load(source, i);
-    detail::store(sink, i, function(request));
+  DEFERRED_SHADE_HOST_DEVICE void operator()([[maybe_unused]] request_index i) const {
+    if constexpr (detail::record_types<Source, Function, Sink>::met) {
+      request_type const request = detail::load(source, i);
+      detail::store(sink, i, function(request));
+    }
   }
 };
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deferred_shade/config.hpp>  // first: it refuses what is too old
+
 #include <stdexcept>
 #include <type_traits>
 
 #include <deferred_shade/detail/checked_count.hpp>
 #include <deferred_shade/detail/fail.hpp>
+#include <deferred_shade/detail/requirements.hpp>
 #include <deferred_shade/detail/shader_subset.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/schedule.hpp>
@@ -15,11 +18,6 @@
 
 namespace deferred_shade {
 namespace detail {
-
-template <class T>
-inline constexpr bool is_device_count = false;
-template <class Integer>
-inline constexpr bool is_device_count<device_count<Integer>> = true;
 
 // What a schedule is given as the number of requests: the number itself where the host sees it.
 template <class System, class Count>
@@ -47,8 +45,8 @@ auto batch_size(System, Count n) {
 /// - `n`: the number of requests, an integer or a device_count; for the maximum of one, whatever
 ///   the schedule, `scratch` is reserved.
 /// - `ids`: a random-access iterator over the shader id of each request, an integer or enumeration
-///   of 8 to 32 bits. It is read more than once. An id that the table does not have leaves its
-///   request alone.
+///   of 8 to 32 bits, wide enough for the id of the last shader. It is read more than once. An id
+///   that the table does not have leaves its request alone.
 /// - `scratch`: memory to work in, a workspace or an `observed` one, one per concurrent call.
 ///   Nothing is allocated once it has seen, or reserved for, as many requests and shaders.
 ///
@@ -64,19 +62,21 @@ auto batch_size(System, Count n) {
 template <class Policy, class Schedule, class Count, class Ids, class... Shaders, class Workspace>
 void shade(Policy const& exec, Schedule const& schedule, Count n, Ids ids,
            shader_table<Shaders...> const& shaders, Workspace& scratch) {
-  using system = detail::system_of<Policy>;
-  static_assert(!std::is_void_v<system>,
-                "exec is a policy of Thrust's system cpp, omp, tbb or, for nvcc, cuda");
-  auto const count = detail::batch_size(system{}, n);
-  // Sized by the maximum, so that no later count allocates.
-  if constexpr (detail::is_device_count<Count>) scratch.reserve(n.maximum, sizeof...(Shaders));
-  if (detail::maximum_of(count) == 0) return;
-  if constexpr (std::is_pointer_v<Ids>) {
-    if (ids == nullptr) {
-      detail::fail<std::invalid_argument>("deferred_shade::shade: ids is null, and n is not 0");
+  using required =
+      detail::requirements_of_shade<Schedule, Policy, Count, Ids, Workspace, Shaders...>;
+  if constexpr (required::met) {
+    using system = detail::system_of<Policy>;
+    auto const count = detail::batch_size(system{}, n);
+    // Sized by the maximum, so that no later count allocates.
+    if constexpr (detail::is_device_count<Count>) scratch.reserve(n.maximum, sizeof...(Shaders));
+    if (detail::maximum_of(count) == 0) return;
+    if constexpr (std::is_pointer_v<Ids>) {
+      if (ids == nullptr) {
+        detail::fail<std::invalid_argument>("deferred_shade::shade: ids is null, and n is not 0");
+      }
     }
+    detail::run_schedule(system{}, schedule, exec, count, ids, shaders, scratch);
   }
-  detail::run_schedule(system{}, schedule, exec, count, ids, shaders, scratch);
 }
 
 }  // namespace deferred_shade

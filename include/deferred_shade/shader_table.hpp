@@ -2,42 +2,14 @@
 #pragma once
 
 #include <bitset>
-#include <cstddef>
 #include <type_traits>
 #include <utility>
 
+#include <deferred_shade/detail/ids.hpp>
 #include <deferred_shade/detail/shader_list.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade {
-namespace detail {
-
-/// Which of the ids 0 to `Size` - 1 a list has, how many these are, and whether it has any other.
-/// By loops: clang limits folds to 256 operands.
-template <std::size_t Size>
-struct listed_ids {
-  bool has[Size] = {};
-  std::size_t count = 0;
-  bool fit = true;
-
-  template <shader_id... Ids>
-  static constexpr listed_ids of() {
-    listed_ids result;
-    shader_id const list[] = {Ids..., 0};
-    for (std::size_t j = 0; j < sizeof...(Ids); ++j) {
-      shader_id const id = list[j];
-      if (id >= Size) {
-        result.fit = false;
-      } else if (!result.has[id]) {
-        result.has[id] = true;
-        ++result.count;
-      }
-    }
-    return result;
-  }
-};
-
-}  // namespace detail
 
 /// Shaders of a table, by their ids.
 template <shader_id... Ids>
@@ -53,7 +25,7 @@ struct ids {};
 template <class... Shaders>
 class shader_table : public detail::shader_list<Shaders...> {
   using list = detail::shader_list<Shaders...>;
-  static_assert(sizeof...(Shaders) > 0, "a shader table holds at least one shader");
+  static_assert(sizeof...(Shaders) > 0, "deferred_shade: a shader table must have a shader");
 
  public:
   constexpr explicit shader_table(Shaders... shaders) : list(std::move(shaders)...) {}
@@ -72,9 +44,9 @@ class shader_table : public detail::shader_list<Shaders...> {
   /// takes fewer registers. See specialized.hpp for a choice at run time.
   template <shader_id... Ids>
   constexpr auto only() const {
-    static_assert(sizeof...(Ids) > 0, "a shader table holds at least one shader");
+    static_assert(sizeof...(Ids) > 0, "deferred_shade: only must be given an id");
     static_assert(detail::listed_ids<size()>::template of<Ids...>().fit,
-                  "an id lies outside the table");
+                  "deferred_shade: only must be given ids of the table");
     return only_among<Ids...>(std::make_integer_sequence<shader_id, size()>());
   }
 

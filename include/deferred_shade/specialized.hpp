@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deferred_shade/config.hpp>  // first: it refuses what is too old
+
 #include <bitset>
 #include <cstddef>
 #include <initializer_list>
@@ -24,7 +26,7 @@ struct variant_traits<ids<Ids...>> {
   template <std::size_t Shaders>
   static bool covers(std::bitset<Shaders> occurring) {
     static_assert(listed_ids<Shaders>::template of<Ids...>().fit,
-                  "a variant lists an id outside the table");
+                  "deferred_shade: a variant must list ids of the table");
     for (shader_id const id : {Ids...}) occurring.reset(id);
     return occurring.none();
   }
@@ -41,7 +43,8 @@ struct variant_traits<ids<Ids...>> {
 /// that its scenes typically need. Every one is compiled, so that they are declared, not derived.
 template <class... Variants>
 struct variants {
-  static_assert(sizeof...(Variants) > 0, "there is at least one variant");
+  static_assert(sizeof...(Variants) > 0,
+                "deferred_shade: variants must have at least one ids<...>");
 
   /// How many there are; and the number of the one that stands for the whole table.
   static constexpr std::size_t count = sizeof...(Variants);
@@ -111,11 +114,16 @@ struct specialized {
   template <class Policy, class Count, class Ids, class... AllShaders, class Workspace>
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<AllShaders...> const& shaders,
                   Workspace& scratch) const {
-    static_assert(sizeof...(AllShaders) == Shaders, "occurring has a bit for each shader");
-    detail::with_variant(sets, variant(), shaders, [&](auto const& table) {
-      detail::run_schedule(detail::system_of<Policy>{}, schedule, exec, n, ids,
-                           table.expecting(occurring), scratch);
-    });
+    static_assert(
+        sizeof...(AllShaders) == Shaders,
+        "deferred_shade: occurring must have as many bits as the table has shaders; pass a "
+        "std::bitset<table.size()>");
+    if constexpr (sizeof...(AllShaders) == Shaders) {
+      detail::with_variant(sets, variant(), shaders, [&](auto const& table) {
+        detail::run_schedule(detail::system_of<Policy>{}, schedule, exec, n, ids,
+                             table.expecting(occurring), scratch);
+      });
+    }
   }
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deferred_shade/config.hpp>  // first: it refuses what is too old
+
 #include <algorithm>
 #include <bitset>
 #include <cstddef>
@@ -8,12 +10,15 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <deferred_shade/detail/checked_count.hpp>
 #include <deferred_shade/detail/cpu/block_partition.hpp>
 #include <deferred_shade/detail/fail.hpp>
+#include <deferred_shade/detail/ids.hpp>
 #include <deferred_shade/detail/system.hpp>
+#include <deferred_shade/detail/work.hpp>
 #include <deferred_shade/types.hpp>
 #ifdef __CUDACC__
 #include <deferred_shade/detail/cuda/host_copy.hpp>
@@ -34,7 +39,9 @@ inline void check_width(std::string const& caller, std::uint32_t width) {
 template <class Policy, class Count, class Ids, class Function>
 auto on_host(host_system, std::string const& caller, Policy const& exec, Count n, Ids ids,
              Function const& f) {
-  return f(exec, detail::checked_count(caller, n), ids);
+  request_index const count = detail::checked_count(caller, n);
+  detail::check_array(caller, "ids", ids, count);
+  return f(exec, count, ids);
 }
 #ifdef __CUDACC__
 template <class Policy, class Count, class Ids, class Function>
@@ -42,15 +49,17 @@ auto on_host(cuda_system, std::string const& caller, Policy const& exec, Count n
              Function const& f) {
   cudaStream_t const stream = detail::stream_of(exec);
   request_index const count = detail::count_on_host(caller, stream, n);
+  detail::check_array(caller, "ids", ids, count);
   std::vector<shader_id> const copy = detail::ids_on_host(stream, count, ids);
-  return f(detail::thrust::cpp::par, count, copy.data());
+  return f(thrust::cpp::par, count, copy.data());
 }
 #endif
 
 }  // namespace detail
 
 /// What a group of lanes pays for divergence: `costs[k]` is the cost of shader k, in any unit, and
-/// `width` is the number of consecutive requests that share a program counter.
+/// `width` is the number of consecutive requests that share a program counter. The cost of a shader
+/// that occurs is finite and not negative. That of any other shader is not looked at.
 struct efficiency_model {
   double const* costs;
   shader_id shaders;
@@ -108,6 +117,22 @@ occurrences occurrences_of(Policy const& exec, std::size_t size, Ids const& ids,
   return total;
 }
 
+/// Refuses a cost of a shader that occurs, if it is none.
+inline void check_costs(std::string const& caller, occurrences const& count,
+                        efficiency_model const& model) {
+  for (shader_id k = 0; k < model.shaders; ++k) {
+    if (count.requests[k] == 0) continue;
+    detail::check_array(caller, "costs", model.costs, 1);
+    double const cost = model.costs[k];
+    if (!(cost >= 0 && cost <= (std::numeric_limits<double>::max)())) {
+      detail::fail<std::invalid_argument>(
+          "deferred_shade::" + caller + ": costs[" + std::to_string(k) + "] is " +
+          std::to_string(cost) +
+          ", and the cost of a shader that occurs is finite and not negative");
+    }
+  }
+}
+
 template <class Policy, class Ids>
 void efficiency_of_groups(Policy const& exec, std::size_t size, Ids const& ids,
                           efficiency_model const& model, float* efficiency) {
@@ -117,16 +142,23 @@ void efficiency_of_groups(Policy const& exec, std::size_t size, Ids const& ids,
     std::size_t* const last = last_group.data() + b * model.shaders;
     for (std::size_t first = blocks.begin(b); first < blocks.end(b); first += model.width) {
       std::size_t const group = first / model.width;
-      double useful = 0, held = 0;
-      for (std::size_t i = first; i < (std::min)(size, first + model.width); ++i) {
-        shader_id const k = detail::shader_of(ids, static_cast<request_index>(i), model.shaders);
-        if (k == model.shaders) continue;
-        useful += model.costs[k];
-        if (last[k] != group + 1) held += model.costs[k];
-        last[k] = group + 1;
-      }
-      efficiency[group] = held > 0 ? static_cast<float>(useful / (model.width * held))
-                                   : std::numeric_limits<float>::quiet_NaN();
+      auto const sum = [&](double scale) {
+        work result;
+        // Each sum has a mark of its own for what it has seen.
+        std::size_t const seen = 2 * group + (scale == 1.0 ? 1 : 2);
+        for (std::size_t i = first; i < (std::min)(size, first + model.width); ++i) {
+          shader_id const k = detail::shader_of(ids, static_cast<request_index>(i), model.shaders);
+          if (k == model.shaders) continue;
+          double const cost = model.costs[k] * scale;
+          result.useful += cost;
+          if (last[k] != seen) result.held += cost;
+          last[k] = seen;
+        }
+        return result;
+      };
+      efficiency[group] = static_cast<float>(
+          detail::finite_work(model.width, sum)
+              .efficiency(model.width, std::numeric_limits<double>::quiet_NaN()));
     }
   });
 }
@@ -137,16 +169,20 @@ void efficiency_of_groups(Policy const& exec, std::size_t size, Ids const& ids,
 ///
 /// For reports, not for every batch: allocates, and returns to the host; on CUDA, waits for the
 /// stream and copies the ids to the host, which counts them. Throws std::invalid_argument where
-/// `width` is 0 or `n` negative, std::length_error where `n` exceeds `max_requests`, and
-/// std::bad_alloc.
+/// `width` is 0, `n` negative, or `ids` null while `n` is not 0, std::length_error where `n`
+/// exceeds `max_requests`, and std::bad_alloc.
 template <class Policy, class Count, class Ids>
 occurrences count_occurrences(Policy const& exec, Count n, Ids ids, shader_id shaders,
                               std::uint32_t width = 32) {
-  detail::check_width("count_occurrences", width);
-  return detail::on_host(detail::system_of<Policy>{}, "count_occurrences", exec, n, ids,
-                         [&](auto const& policy, std::size_t size, auto const& host_ids) {
-                           return detail::occurrences_of(policy, size, host_ids, shaders, width);
-                         });
+  if constexpr (detail::requirements_of_ids<Ids>::met) {
+    detail::check_width("count_occurrences", width);
+    return detail::on_host(detail::system_of<Policy>{}, "count_occurrences", exec, n, ids,
+                           [&](auto const& policy, std::size_t size, auto const& host_ids) {
+                             return detail::occurrences_of(policy, size, host_ids, shaders, width);
+                           });
+  } else {
+    return {};
+  }
 }
 
 /// The heterogeneous efficiency of `n` requests in the order in which lanes take them: the work
@@ -156,33 +192,46 @@ occurrences count_occurrences(Policy const& exec, Count n, Ids ids, shader_id sh
 ///
 /// summed over all groups of `width` requests and all shaders i, where n_i counts the requests of
 /// shader i in the group and |A_i| is its cost (Hoberock et al., HPG 2009, section 5). 1 is a batch
-/// without divergence; a batch in which no shader runs wastes nothing and has 1, too. Lanes whose
-/// id names no shader are idle.
+/// without divergence; a batch in which no shader runs, or none that costs anything, wastes nothing
+/// and has 1, too. Lanes whose id names no shader are idle.
 ///
-/// For reports: allocates, and throws what count_occurrences throws.
+/// For reports: allocates, and throws what count_occurrences throws. Throws std::invalid_argument
+/// where a shader occurs whose cost is negative, infinite or NaN, or where `costs` is null.
 template <class Policy, class Count, class Ids>
 double heterogeneous_efficiency(Policy const& exec, Count n, Ids ids,
                                 efficiency_model const& model) {
   occurrences const count =
       deferred_shade::count_occurrences(exec, n, ids, model.shaders, model.width);
-  double useful = 0, held = 0;
-  for (shader_id k = 0; k < model.shaders; ++k) {
-    useful += static_cast<double>(count.requests[k]) * model.costs[k];
-    held += static_cast<double>(count.groups[k]) * model.costs[k];
-  }
-  return held > 0 ? useful / (model.width * held) : 1.0;
+  detail::check_costs("heterogeneous_efficiency", count, model);
+  auto const sum = [&](double scale) {
+    detail::work result;
+    for (shader_id k = 0; k < model.shaders; ++k) {
+      if (count.requests[k] == 0) continue;
+      double const cost = model.costs[k] * scale;
+      result.useful += static_cast<double>(count.requests[k]) * cost;
+      result.held += static_cast<double>(count.groups[k]) * cost;
+    }
+    return result;
+  };
+  return detail::finite_work(model.width, sum).efficiency(model.width, 1.0);
 }
 
 /// The heterogeneous efficiency of every group on its own: writes ceil(n / width) values to
-/// `efficiency`, NaN for a group in which no shader runs.
+/// `efficiency`, NaN for a group in which no shader runs, or none that costs anything.
 ///
-/// Allocates, and throws what count_occurrences throws.
+/// Allocates, and throws what heterogeneous_efficiency throws, before it writes anything; and
+/// std::invalid_argument where `efficiency` is null.
 template <class Policy, class Count, class Ids>
 void group_efficiency(Policy const& exec, Count n, Ids ids, efficiency_model const& model,
                       float* efficiency) {
   detail::check_width("group_efficiency", model.width);
   detail::on_host(detail::system_of<Policy>{}, "group_efficiency", exec, n, ids,
                   [&](auto const& policy, std::size_t size, auto const& host_ids) {
+                    detail::check_array("group_efficiency", "efficiency", efficiency,
+                                        static_cast<request_index>(size));
+                    auto const count =
+                        detail::occurrences_of(policy, size, host_ids, model.shaders, model.width);
+                    detail::check_costs("group_efficiency", count, model);
                     detail::efficiency_of_groups(policy, size, host_ids, model, efficiency);
                   });
 }

@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include <deferred_shade/config.hpp>
+#include <deferred_shade/detail/ids.hpp>
 
 namespace deferred_shade {
 
@@ -27,7 +28,8 @@ inline constexpr std::size_t max_requests = (std::numeric_limits<request_index>:
 /// as `maximum`.
 template <class Integer>
 struct device_count {
-  static_assert(std::is_integral_v<Integer>, "device_count points at an integer");
+  static_assert(std::is_integral_v<Integer> && !std::is_same_v<std::remove_cv_t<Integer>, bool>,
+                "deferred_shade: device_count must point at an integer that is not bool");
   Integer const* pointer;
   std::size_t maximum;
 };
@@ -57,14 +59,6 @@ struct phase {
   std::optional<std::size_t> requests{};  ///< that it runs on, where the host knows how many
 };
 
-namespace detail {
-
-template <class Id>
-inline constexpr bool is_id =
-    sizeof(Id) <= sizeof(shader_id) && std::disjunction_v<std::is_integral<Id>, std::is_enum<Id>>;
-
-}  // namespace detail
-
 /// The shader that `ids` names for request `i`, or `shaders` where it names none.
 ///
 /// `Ids` is a random-access iterator over an integer or an enumeration of 8 to 32 bits. A negative
@@ -73,13 +67,14 @@ DEFERRED_SHADE_EXEC_CHECK_DISABLE
 template <class Ids>
 DEFERRED_SHADE_HOST_DEVICE inline shader_id shader_of(Ids const& ids, request_index i,
                                                       shader_id shaders) {
-  using traits = std::iterator_traits<Ids>;
-  using value_type = typename traits::value_type;
-  static_assert(detail::is_id<value_type>,
-                "a shader id is an integer or an enumeration of at most 32 bits");
-  value_type const value = ids[static_cast<typename traits::difference_type>(i)];
-  auto const id = static_cast<shader_id>(value);
-  return id < shaders ? id : shaders;
+  if constexpr (detail::requirements_of_ids<Ids>::met) {
+    using traits = std::iterator_traits<Ids>;
+    typename traits::value_type const value = ids[static_cast<typename traits::difference_type>(i)];
+    auto const id = static_cast<shader_id>(value);
+    return id < shaders ? id : shaders;
+  } else {
+    return shaders;
+  }
 }
 
 namespace detail {

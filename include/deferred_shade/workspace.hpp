@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deferred_shade/config.hpp>  // first: it refuses what is too old
+
 #include <thrust/type_traits/is_execution_policy.h>
 #include <algorithm>
 #include <cstddef>
@@ -15,6 +17,7 @@
 
 #include <deferred_shade/detail/fail.hpp>
 #include <deferred_shade/detail/system.hpp>
+#include <deferred_shade/detail/workspace_memory.hpp>
 #include <deferred_shade/types.hpp>
 #ifdef __CUDACC__
 #include <deferred_shade/cuda.hpp>
@@ -25,52 +28,12 @@ namespace detail {
 
 struct every_schedule;  // schedule.hpp
 
-template <class T, class = void>
-inline constexpr bool is_complete = false;
-template <class T>
-inline constexpr bool is_complete<T, std::void_t<decltype(sizeof(T))>> = true;
-
-// Memory of std::allocator is none of a GPU; memory of others may be.
-template <class Allocator>
-inline constexpr bool is_for_hosts_alone = false;
-template <class T>
-inline constexpr bool is_for_hosts_alone<std::allocator<T>> = true;
-
-inline constexpr std::size_t workspace_alignment = 128;
-
-/// A plain pointer for what an allocator gives: one itself, one of Thrust's, or another one that
-/// knows the address as get() or operator->().
-template <class Pointer, class = void>
-inline constexpr bool has_get = false;
-template <class Pointer>
-inline constexpr bool
-    has_get<Pointer, std::void_t<decltype(std::declval<Pointer const&>().get())>> = true;
-template <class Pointer>
-void* raw_pointer(Pointer const& pointer) {
-  if constexpr (std::is_pointer_v<Pointer>) {
-    return static_cast<void*>(pointer);
-  } else if constexpr (has_get<Pointer>) {
-    return static_cast<void*>(pointer.get());
-  } else {
-    return static_cast<void*>(pointer.operator->());
-  }
-}
-
-/// What an array takes of a workspace.
-template <class T>
-constexpr std::size_t array_bytes(std::size_t count) noexcept {
-  return (count * sizeof(T) + workspace_alignment - 1) / workspace_alignment * workspace_alignment;
-}
-
 }  // namespace detail
 
 /// A request to a workspace for an array of `count` elements of a trivial type. Throws
 /// std::length_error where that is more than a sixteenth of the address space.
 template <class T>
 struct elements {
-  static_assert(std::is_trivial_v<T>,
-                "a workspace holds trivial types, which it leaves uninitialised");
-  static_assert(alignof(T) <= detail::workspace_alignment, "a workspace aligns to 128 bytes");
   explicit elements(std::size_t n) : count(n) {
     if (n > static_cast<std::size_t>(-1) / 16 / sizeof(T)) {
       detail::fail<std::length_error>("deferred_shade::elements: an array of " + std::to_string(n) +
@@ -78,6 +41,12 @@ struct elements {
     }
   }
   std::size_t count;
+
+  static_assert(std::is_trivial_v<T>,
+                "deferred_shade: elements of a workspace must be of a trivial type: it leaves them "
+                "uninitialised");
+  static_assert(alignof(T) <= detail::workspace_alignment,
+                "deferred_shade: elements of a workspace must be aligned to at most 128 bytes");
 };
 
 /// Memory that schedules work in. It grows and never shrinks, so that a renderer that keeps one
@@ -91,6 +60,11 @@ struct elements {
 ///
 ///     deferred_shade::workspace scratch{thrust::omp::par};
 ///     deferred_shade::workspace mine{my_allocator<std::byte>{pool}};
+///
+/// A renderer's own type may stand in its place if it has these members, with the contracts that
+/// they have here: `take(elements<T>...)`, which returns a tuple of pointers; `reserve(n,
+/// shaders)`; and `begin_phase(phase) const`, which returns any object. If it has an
+/// `allocator_type`, `shade` looks at it.
 template <class Allocator = std::allocator<std::byte>>
 class workspace {
   // Not over-aligned: some allocators ignore that, and it is done here.
@@ -100,6 +74,8 @@ class workspace {
   using traits = typename std::allocator_traits<Allocator>::template rebind_traits<line>;
 
  public:
+  using allocator_type = Allocator;
+
   workspace() = default;
   explicit workspace(Allocator const& allocator) : allocator_(allocator) {}
 
@@ -217,6 +193,11 @@ namespace detail {
 
 template <class System>
 struct allocator_on {
+  static_assert(
+      !std::is_void_v<System>,
+      "deferred_shade: a workspace must be made of an allocator or of an execution policy "
+      "of Thrust's system cpp, omp, tbb or, in code for nvcc, cuda; pass thrust::omp::par, "
+      "for example");
   using type = std::allocator<std::byte>;
 };
 #ifdef __CUDACC__
@@ -229,6 +210,10 @@ struct allocator_on<cuda_system> {
 // An allocator is taken as it is; a policy names the machine that the memory is for.
 template <class T, class = void>
 struct allocator_for : allocator_on<system_of<T>> {};
+template <class Allocator>
+struct allocator_for<workspace<Allocator>> {
+  using type = Allocator;
+};
 template <class T>
 struct allocator_for<T, std::void_t<typename T::value_type>> {
   using type = T;

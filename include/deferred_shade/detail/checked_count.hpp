@@ -15,7 +15,7 @@ namespace deferred_shade::detail {
 template <class Integer>
 request_index checked_count(std::string const& caller, Integer n) {
   static_assert(std::is_integral_v<Integer> && !std::is_same_v<Integer, bool>,
-                "n is an integer or a device_count");
+                "deferred_shade: n must be an integer or a device_count");
   if constexpr (std::is_signed_v<Integer>) {
     if (n < 0) {
       detail::fail<std::invalid_argument>("deferred_shade::" + caller + ": n is " +

@@ -21,7 +21,8 @@ namespace detail {
 template <shader_id Id, class Shader>
 struct table_slot {
   static_assert(std::is_invocable_v<Shader const&, request_index>,
-                "a shader is called as shader(request_index) and its operator() is const");
+                "deferred_shade: a shader must be callable as shader(request_index), by an "
+                "operator() that is const; pass functions of records to record_shaders");
   Shader shader;
 };
 

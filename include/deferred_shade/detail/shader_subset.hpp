@@ -38,7 +38,9 @@ template <std::uint32_t Present>
 struct place_among {
   template <class Id>
   DEFERRED_SHADE_HOST_DEVICE shader_id operator()(Id const& value) const {
-    static_assert(is_id<Id>, "a shader id is an integer or an enumeration of at most 32 bits");
+    static_assert(is_id<Id>,
+                  "deferred_shade: place_among must be called with an integer or an enumeration of "
+                  "at most 32 bits");
     auto const id = static_cast<shader_id>(value);
     if (id >= 32 || (Present >> id & 1U) == 0) return 32;
     std::uint32_t const below = Present & ((std::uint32_t{1} << id) - 1);

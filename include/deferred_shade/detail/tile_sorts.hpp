@@ -24,7 +24,9 @@ namespace detail {
 template <shader_id Shaders>
 DEFERRED_SHADE_HOST_DEVICE constexpr std::uint32_t bitonic_key(shader_id shader,
                                                                request_index position) {
-  static_assert(Shaders < 0xffffffffU / bitonic::tile, "a shader and a position fit in 32 bits");
+  static_assert(
+      Shaders < 0xffffffffU / bitonic::tile,
+      "deferred_shade: a shader and a position in a tile must fit in 32 bits; take fewer shaders");
   return shader * bitonic::tile + position;
 }
 

@@ -11,7 +11,10 @@
 
 namespace deferred_shade::detail {
 
-static_assert(sizeof(std::size_t) >= 8, "sizes of batches are computed in 64 bits");
+static_assert(
+    sizeof(std::size_t) >= 8,
+    "deferred_shade: std::size_t must have 64 bits, in which sizes of batches are computed; "
+    "compile for a 64-bit target");
 
 /// A batch of n requests cut into blocks of equal size, the last one excepted; one worker owns a
 /// block at a time.

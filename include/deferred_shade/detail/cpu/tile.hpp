@@ -31,7 +31,7 @@ void for_each_tile(Policy const& exec, request_index n, Function f) {
 /// to `offsets[k + 1]`, are the requests of shader k, as distances from the first of the tile.
 template <shader_id Shaders, request_index Tile>
 struct sorted_tile {
-  static_assert(Tile <= 65536, "a position in a tile has 16 bits");
+  static_assert(Tile <= 65536, "deferred_shade: a position in a tile must fit in 16 bits");
   std::uint16_t order[Tile];
   std::uint32_t offsets[Shaders + 2];
 };
@@ -101,7 +101,8 @@ bool run_long_stretches(Ids const& ids, request_index first, request_index size,
 /// applications", AFIPS 1968): the same comparisons for every input, so that lanes never diverge.
 template <std::size_t Size>
 void bitonic_sort(std::uint32_t (&keys)[Size]) {
-  static_assert((Size & (Size - 1)) == 0, "a bitonic network sorts a power of two of keys");
+  static_assert((Size & (Size - 1)) == 0,
+                "deferred_shade: a bitonic network must have a power of two of keys");
   for (std::size_t run = 2; run <= Size; run *= 2) {
     for (std::size_t distance = run / 2; distance > 0; distance /= 2) {
       for (std::size_t base = 0; base < Size; base += 2 * distance) {

@@ -62,7 +62,8 @@ struct tile_of_block {
 template <shader_id Shaders>
 class tile_counts {
   static constexpr std::uint32_t words = Shaders / 4 + 1;
-  static_assert(bucket_items * bucket_warps <= 255, "the counts of all warps fit in a byte");
+  static_assert(bucket_items * bucket_warps <= 255,
+                "deferred_shade: the counts of all warps must fit in a byte");
 
  public:
   /// Counts a tile, and calls `write(k, count)` for every shader by some thread of the block.

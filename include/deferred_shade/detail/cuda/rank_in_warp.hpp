@@ -47,7 +47,8 @@ __device__ std::uint32_t lanes_with_my_key(std::uint32_t key) {
 template <shader_id Shaders, std::uint32_t Items>
 __device__ std::uint32_t rank_in_warp(std::uint32_t const (&keys)[Items],
                                       std::uint32_t (&ranks)[Items]) {
-  static_assert(Shaders <= warp_size, "a lane looks after each shader");
+  static_assert(Shaders <= warp_size,
+                "deferred_shade: each shader must have a lane of a warp to look after it");
   std::uint32_t const below = (1U << threadIdx.x % warp_size) - 1;
   std::uint32_t count = 0;
 #pragma unroll

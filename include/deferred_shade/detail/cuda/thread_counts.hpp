@@ -31,10 +31,11 @@ __device__ inline four_bit_keys to_four_bits(std::uint32_t const (&keys)[16]) {
 /// Three counts share a word, ten bits each: room for the sums over the threads of a warp.
 template <shader_id Shaders>
 class thread_counts {
-  static_assert(Shaders < 16, "an id has four bits");
+  static_assert(Shaders < 16, "deferred_shade: an id must fit in four bits");
   static constexpr std::uint32_t per_word = 3;
   static constexpr std::uint32_t bits = 10;
-  static_assert(16 * warp_size < 1U << bits, "a count holds the requests of a warp");
+  static_assert(16 * warp_size < 1U << bits,
+                "deferred_shade: a count must hold the requests of a warp");
 
  public:
   /// The id `Shaders` is counted as well, those above it are not.

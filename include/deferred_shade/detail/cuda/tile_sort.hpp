@@ -31,7 +31,7 @@ class tile_sort {
  public:
   static constexpr std::uint32_t size = Threads * Items;
   static constexpr shader_id columns = Shaders + 1;
-  static_assert(size <= 0xffff, "a position in a tile has 16 bits");
+  static_assert(size <= 0xffff, "deferred_shade: a position in a tile must fit in 16 bits");
 
   /// Shared memory that is free again once the places are known and a barrier has passed.
   using temporary_storage = std::conditional_t<has_lanes, counts, typename ranker::TempStorage>;

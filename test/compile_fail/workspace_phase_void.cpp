@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// A workspace of the renderer's that has nothing to keep in a phase.
+// error: scratch must be a workspace, or have its member begin_phase\(phase\) const, which returns
+// an object
+#include "program.hpp"
+
+struct renderers_workspace {
+  ds::workspace<> memory;
+  template <class... T>
+  auto take(ds::elements<T>... arrays) {
+    return memory.take(arrays...);
+  }
+  void reserve(std::size_t n, std::size_t shaders) { memory.reserve(n, shaders); }
+#ifdef RIGHT
+  char begin_phase(ds::phase const&) const { return 0; }
+#else
+  void begin_phase(ds::phase const&) const {}
+#endif
+};
+void f(std::uint8_t* ids, float* out, renderers_workspace& scratch) {
+  ds::shader_table const table{mark{out}, mark{out}};
+  ds::shade(thrust::cpp::par, ds::sort_then_dispatch<>{}, 5, ids, table, scratch);
+}
