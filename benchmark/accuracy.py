@@ -8,8 +8,8 @@ renders every scene by every setting below with several seeds, compares the pict
 appends one line of JSON for each setting. A setting that the file has is not measured again, nor a picture that
 the cache has: an interrupted run goes on where it was. References and unfinished pictures lie in --cache, by names that say scene, size,
 seed, samples and precision. benchmark/accuracy_report.py makes tables and plots. Needs NumPy; FLIP is filled in
-where the package flip-evaluator is installed. The programs path_tracer_double, path_tracer_fast and
-path_tracer_compact (cmake -DDEFERRED_SHADE_BUILD_ACCURACIES=ON) lie beside PATH_TRACER; the first makes the references; none of them has the backend tbb.
+where the package flip-evaluator is installed. The programs gltf_path_tracer_double, gltf_path_tracer_fast and
+gltf_path_tracer_compact (cmake -DDEFERRED_SHADE_BUILD_ACCURACIES=ON) lie beside PATH_TRACER; the first makes the references; none of them has the backend tbb.
 
 Errors are relative to the reference r: (x - r)^2 / (r^2 + 1e-2 m^2), where m is the mean of the reference,
 averaged over pixels and channels. Of several seeds' pictures, their variance and the square of their mean's

@@ -10,7 +10,7 @@
 
 `table` prints Markdown: for every scene what each setting takes and gives. `knobs` sets the settings with SPP samples side
 by side over scenes, and `digits` what a digit costs. `plot` draws error against time, a panel for each scene and file, with
-the settings that no other beats in both joined by a line. `schedules` takes reports of `path_tracer --schedule all` over the
+the settings that no other beats in both joined by a line. `schedules` takes reports of `gltf_path_tracer --schedule all` over the
 same scenes, one a line, and prints the seconds in which each schedule reaches a relative error of 1 %: as schedules change
 no bit, that is its time per sample times the samples which that takes.
 """

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The time of every bounce of the example path tracer, schedule by schedule, as a Markdown table.
 
-    path_tracer SCENE --schedule all --report first.json, and once or twice more
+    gltf_path_tracer SCENE --schedule all --report first.json, and once or twice more
     benchmark/bounces.py first.json second.json third.json
 
 Milliseconds of shading for one sample per pixel, medians over the reports, which must have the same

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Registers and occupancy of the path tracer's kernels, variant by variant, from the compiler's report.
 
-    cmake --preset cuda -DCMAKE_CUDA_FLAGS="-Xptxas -v" && cmake --build build/cuda -t path_tracer > build.log
+    cmake --preset cuda -DCMAKE_CUDA_FLAGS="-Xptxas -v" && cmake --build build/cuda -t gltf_path_tracer > build.log
     benchmark/registers.py build.log > registers.json
     benchmark/registers.py registers.json
 """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the renderers of examples/integration: integration.py SWITCH DEFERRED NUMBERED, the programs
+"""Checks the renderers of examples/05_renderer: integration.py SWITCH DEFERRED NUMBERED, the programs
 of the two files, and the second with the schedule whose number SCHEDULE has.
 
 The pictures are equal bit by bit, whatever the schedule and the number of threads. That they are not

@@ -3,7 +3,7 @@
 # Checks in which direction the headers of the library include each other: public -> detail -> detail/{cpu,cuda}, and
 # never back. A few public headers hold the words that all others speak; they may be included from everywhere.
 # Also checks that the umbrella reaches every header except the optional ones, and that no file of code is longer than
-# 250 lines.
+# 250 lines, except one.
 
 cmake_minimum_required(VERSION 3.22)
 
@@ -100,8 +100,12 @@ file(GLOB_RECURSE sources
 foreach(source IN LISTS sources)
   read_lines("${source}" lines)
   list(LENGTH lines length)
-  if(length GREATER 250)
-    string(APPEND errors "\n  ${source}: ${length} lines, more than 250")
+  set(most 250)
+  if(source MATCHES "/examples/06_path_tracer[.]cpp$")
+    set(most 320)  # a whole renderer in one file: that is its point
+  endif()
+  if(length GREATER most)
+    string(APPEND errors "\n  ${source}: ${length} lines, more than ${most}")
   endif()
 endforeach()
 

@@ -23,11 +23,11 @@ import tempfile
 import time
 
 root = pathlib.Path(__file__).resolve().parent.parent
-sources = "examples/path_tracer/"
+sources = "examples/gltf_path_tracer/"
 mutation = collections.namedtuple("mutation", "name file text naive test")
 
 mutations = [
-    mutation("fresnel", "microfacet.hpp",
+    mutation("fresnel", "shading/microfacet.hpp",
              """  real const step = (eta - 1) * (eta + 1), cos2 = cos_i * cos_i;
   real const bent2 = step + cos2;  // (eta cos_t)^2
   cos_t = 0;
@@ -45,13 +45,13 @@ mutations = [
   real const s = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
   real const p = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
 """, "Fresnel's equations hold at all angles and for indices next to one"),
-    mutation("sine", "microfacet.hpp", "(1 - cos_theta) * (1 + cos_theta)", "1 - cos_theta * cos_theta",
+    mutation("sine", "shading/microfacet.hpp", "(1 - cos_theta) * (1 + cos_theta)", "1 - cos_theta * cos_theta",
              "the sine of a direction next to the pole has all its digits"),
-    mutation("basis", "surface.hpp", "real const sign = n.z < 0 ? real(-1) : real(1);", "real const sign = 1;",
+    mutation("basis", "scene/surface.hpp", "real const sign = n.z < 0 ? real(-1) : real(1);", "real const sign = 1;",
              "a frame about any normal is orthonormal"),
-    mutation("gram-schmidt-once", "surface.hpp", "if (length2 < real(0.25) * hint2)", "if (false)",
+    mutation("gram-schmidt-once", "scene/surface.hpp", "if (length2 < real(0.25) * hint2)", "if (false)",
              "a frame stays orthonormal whatever tangent it is asked for"),
-    mutation("moeller-trumbore", "bvh.hpp",
+    mutation("moeller-trumbore", "scene/bvh.hpp",
              """    vec2 const pa{a.x - shear_.x * a.z, a.y - shear_.y * a.z};
     vec2 const pb{b.x - shear_.x * b.z, b.y - shear_.y * b.z};
     vec2 const pc{c.x - shear_.x * c.z, c.y - shear_.y * c.z};
@@ -82,39 +82,39 @@ mutations = [
     if (!(t > 0 && t < h.t)) return false;
     h = {t, {u, v}, triangle.primitive};
 """, "no ray leaks through a closed mesh"),
-    mutation("strict-edges", "bvh.hpp", "if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return false;",
+    mutation("strict-edges", "scene/bvh.hpp", "if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return false;",
              "if ((u <= 0 || v <= 0 || w <= 0) && (u >= 0 || v >= 0 || w >= 0)) return false;",
              "no ray leaks through a closed mesh"),
-    mutation("no-offset", "surface.hpp",
+    mutation("no-offset", "scene/surface.hpp",
              "return position + (glm::dot(world, geometric) > 0 ? clearance : -clearance) * geometric;",
              "return glm::dot(world, geometric) == 2 ? world : position;",
              "no secondary ray meets the triangle that it starts on"),
-    mutation("constant-offset", "motion.hpp",
+    mutation("constant-offset", "scene/motion.hpp",
              "return epsilon * (2 * max_component(reach) + 16 * max_component(extent));",
              "return max_component(reach) < 0 ? max_component(extent) : real(1e-4);",
              "a point near the origin of a huge tilted plane starts rays off it"),
-    mutation("float-sum", "sums.hpp", "total += glm::dvec3(v);", "total = glm::dvec3(vec3(total) + v);",
+    mutation("float-sum", "shading/sums.hpp", "total += glm::dvec3(v);", "total = glm::dvec3(vec3(total) + v);",
              "the mean of ten million samples is right to the last digit of a float"),
-    mutation("unguarded-division", "bsdf.hpp", "  if (!(v.pdf > 0)) return {};\n", "",
+    mutation("unguarded-division", "shading/bsdf.hpp", "  if (!(v.pdf > 0)) return {};\n", "",
              "samples of a BSDF are finite for numbers at the ends of their range"),
-    mutation("coarse-pick", "lights.hpp", "u.y + rest * real(0x1p-24) >= entries", "u.y + 0 * rest >= entries",
+    mutation("coarse-pick", "scene/lights.hpp", "u.y + rest * real(0x1p-24) >= entries", "u.y + 0 * rest >= entries",
              "a light is picked as often as its density says, were it a million times dimmer"),
-    mutation("dark-lights", "lights.cpp", "area(t);\n    if (!(w > 0)) continue;", "area(t);",
+    mutation("dark-lights", "scene/lights.cpp", "area(t);\n    if (!(w > 0)) continue;", "area(t);",
              "lights without area or radiance are never picked"),
-    mutation("nan-passes", "environment_map.cpp",
+    mutation("nan-passes", "scene/environment_map.cpp",
              "if (v >= 0 && v * intensity <= real(1e30) && v <= real(1e30)) continue;",
              "if (!(v < 0 || v * intensity > real(1e30) || v > real(1e30))) continue;",
              "a sky with a texel that no light can come from is refused"),
     mutation("phase", "effects/medium.hpp", "(1 - g) * (1 - g) + 2 * g * (1 - c)", "1 + g * g - 2 * g * c",
              "the phase function is exact next to its peak"),
-    mutation("sheen-to-the-horizon", "microfacet.hpp",
+    mutation("sheen-to-the-horizon", "shading/microfacet.hpp",
              "real const o = glm::max(wo.z, real(1e-4)), i = glm::max(wi.z, real(1e-4));",
              "real const o = wo.z, i = wi.z;",
              "layers over a white base give back no more than they get, and little less"),
-    mutation("tangent-from-cosine", "microfacet.hpp", "(m.x * m.x + m.y * m.y) / (alpha * alpha)",
+    mutation("tangent-from-cosine", "shading/microfacet.hpp", "(m.x * m.x + m.y * m.y) / (alpha * alpha)",
              "(1 - m.z * m.z) / (alpha * alpha)",
              "a white metal loses what single scattering loses, at any roughness and angle"),
-    mutation("squared-densities", "lights.hpp",
+    mutation("squared-densities", "scene/lights.hpp",
              "  real const ratio = b / a;\n  return 1 / (1 + ratio * ratio);",
              "  return a * a / (a * a + b * b);",
              "the power heuristic holds for densities whose squares a float does not have"),

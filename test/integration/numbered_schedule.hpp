@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <deferred_shade/deferred_shade.hpp>
 
-#include "examples/integration/reported.hpp"
+#include "examples/05_renderer/reported.hpp"
 #include "test/support/every_schedule.hpp"
 
 /// The schedule of the library whose number, from 0, the environment variable SCHEDULE has,

@@ -4,11 +4,11 @@
 #include <random>
 #include <vector>
 
-#include "lights.hpp"
 #include "machines.hpp"
-#include "noise.hpp"
 #include "render_support.hpp"
-#include "sums.hpp"
+#include "scene/lights.hpp"
+#include "shading/noise.hpp"
+#include "shading/sums.hpp"
 
 using namespace path_tracer;
 using Catch::Matchers::WithinAbs;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gltf.hpp"
+#include "io/gltf.hpp"
 #include "machines.hpp"
 #include "path_tracer/process.hpp"
 
@@ -51,7 +51,7 @@ TEST_CASE("a GPU that is not there is an error of one line") {
   auto const names = backends();
   bool const has_cuda = std::find(names.begin(), names.end(), "cuda") != names.end();
   CHECK(result.exit_code == (has_cuda ? 1 : 2));
-  CHECK(result.err.rfind("path_tracer: ", 0) == 0);
+  CHECK(result.err.rfind("gltf_path_tracer: ", 0) == 0);
   CHECK(result.err.find('\n') == result.err.size() - 1);
   CHECK(result.err.find(has_cuda ? "CUDA" : "there is no \"cuda\"") != std::string::npos);
   CHECK(folder.names() == std::vector<std::string>{"scene.gltf"});

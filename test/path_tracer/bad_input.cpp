@@ -2,10 +2,10 @@
 // Command lines that are wrong (exit code 2) and files that cannot be written (exit code 1).
 #include <algorithm>
 
+#include "app/render.hpp"
 #include "catch.hpp"
 #include "path_tracer/fixture.hpp"
 #include "path_tracer/process.hpp"
-#include "render.hpp"
 
 using namespace path_tracer_test;
 
@@ -19,7 +19,7 @@ struct bad_command {
 void check_refused(outcome const& result, int code, std::string const& words) {
   CAPTURE(result.err, words);
   CHECK(result.exit_code == code);
-  CHECK(result.err.rfind("path_tracer: ", 0) == 0);
+  CHECK(result.err.rfind("gltf_path_tracer: ", 0) == 0);
   CHECK(result.err.find('\n') == result.err.size() - 1);
   CHECK(result.err.find(words) != std::string::npos);
 }
@@ -83,7 +83,7 @@ TEST_CASE("help and version go to standard output") {
     CHECK(help.out.find(word) != std::string::npos);
   outcome const version = run_path_tracer({"--version"});
   CHECK(version.exit_code == 0);
-  CHECK(version.out.rfind("path_tracer ", 0) == 0);
+  CHECK(version.out.rfind("gltf_path_tracer ", 0) == 0);
 }
 
 /// A folder with a good scene in it, and the arguments to render that quickly.
@@ -161,7 +161,7 @@ TEST_CASE("what a scene holds and the picture leaves out is one warning line eac
   arguments.erase(std::find(arguments.begin(), arguments.end(), "--quiet"));
   outcome const result = run_path_tracer(arguments);
   CHECK(result.exit_code == 0);
-  CHECK(result.err.find("path_tracer: warning: ") == 0);
+  CHECK(result.err.find("gltf_path_tracer: warning: ") == 0);
   CHECK(result.err.find("\"skins\" is left out\n") != std::string::npos);
   CHECK(result.err.find("\"occlusionTexture\" (material 0 \"paint\") is left out\n") !=
         std::string::npos);

@@ -13,7 +13,7 @@ void check_refused(outcome const& result, std::string const& words) {
   CAPTURE(result.err);
   CHECK(result.exit_code == 1);
   CHECK(result.out.empty());
-  CHECK(result.err.rfind("path_tracer: ", 0) == 0);
+  CHECK(result.err.rfind("gltf_path_tracer: ", 0) == 0);
   CHECK(result.err.find('\n') == result.err.size() - 1);
   CHECK(result.err.find(words) != std::string::npos);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bsdf.hpp"
+#include "shading/bsdf.hpp"
 
 #include <array>
 #include <cmath>

@@ -5,12 +5,12 @@
 
 #include <array>
 
-#include "bsdf.hpp"
-#include "bsdf_glass.hpp"
-#include "bsdf_layers.hpp"
 #include "catch.hpp"
-#include "random.hpp"
-#include "scene.hpp"
+#include "scene/scene.hpp"
+#include "shading/bsdf.hpp"
+#include "shading/bsdf_glass.hpp"
+#include "shading/bsdf_layers.hpp"
+#include "shading/random.hpp"
 
 namespace path_tracer {
 

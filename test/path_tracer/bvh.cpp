@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bvh.hpp"
+#include "scene/bvh.hpp"
 
 #include <algorithm>
 #include <cmath>

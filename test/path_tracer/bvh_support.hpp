@@ -7,9 +7,9 @@
 #include <cmath>
 #include <vector>
 
-#include "bvh_builder.hpp"
 #include "catch.hpp"
-#include "random.hpp"
+#include "scene/bvh_builder.hpp"
+#include "shading/random.hpp"
 
 namespace path_tracer {
 

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <string>
 
-#include "gltf.hpp"
+#include "effects/scene_effects.hpp"
+#include "io/gltf.hpp"
 #include "machines.hpp"
 #include "render_support.hpp"
-#include "scene_effects.hpp"
 
 using namespace path_tracer;
 

@@ -4,8 +4,8 @@
 #include <complex>
 
 #include "machines.hpp"
-#include "spectrum.hpp"
-#include "thin_film.hpp"
+#include "shading/spectrum.hpp"
+#include "shading/thin_film.hpp"
 
 using namespace path_tracer;
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "bvh.hpp"
-#include "lights.hpp"
 #include "machines.hpp"
-#include "path_draws.hpp"
+#include "scene/bvh.hpp"
+#include "scene/lights.hpp"
+#include "shading/path_draws.hpp"
 
 using namespace path_tracer;
 

@@ -16,7 +16,7 @@
 
 #include <unistd.h>
 
-#include "image.hpp"
+#include "io/image.hpp"
 
 namespace path_tracer_test {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Geometry, transforms, cameras and lights as the loader leaves them.
-#include "gltf.hpp"
+#include "io/gltf.hpp"
 
 #include <set>
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "catch.hpp"
-#include "environment_map.hpp"
-#include "gltf.hpp"
+#include "io/gltf.hpp"
 #include "path_tracer/fixture.hpp"
+#include "scene/environment_map.hpp"
 
 using namespace path_tracer_test;
 using path_tracer::scene;

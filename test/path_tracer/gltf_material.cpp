@@ -4,7 +4,7 @@
 #include <set>
 
 #include "catch.hpp"
-#include "gltf.hpp"
+#include "io/gltf.hpp"
 #include "path_tracer/fixture.hpp"
 
 using namespace path_tracer;

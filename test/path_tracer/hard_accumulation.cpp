@@ -5,8 +5,8 @@
 
 #include "hard_support.hpp"
 #include "machines.hpp"
-#include "scattering.hpp"
-#include "stages.hpp"
+#include "shading/scattering.hpp"
+#include "shading/stages.hpp"
 
 using namespace path_tracer;
 

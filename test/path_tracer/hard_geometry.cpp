@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hard_support.hpp"
-#include "surface.hpp"
+#include "scene/surface.hpp"
 
 using namespace path_tracer;
 

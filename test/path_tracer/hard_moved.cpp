@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "gltf.hpp"
 #include "hard_support.hpp"
+#include "io/gltf.hpp"
 #include "machines.hpp"
 
 using namespace path_tracer;

@@ -8,7 +8,7 @@
 #include "bsdf_support.hpp"
 #include "hard_support.hpp"
 #include "machines.hpp"
-#include "surface.hpp"
+#include "scene/surface.hpp"
 
 using namespace path_tracer;
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "hard_support.hpp"
-#include "surface.hpp"
+#include "scene/surface.hpp"
 
 using namespace path_tracer;
 

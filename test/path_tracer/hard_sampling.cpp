@@ -6,9 +6,9 @@
 
 #include "bsdf_support.hpp"
 #include "hard_support.hpp"
-#include "lights.hpp"
 #include "machines.hpp"
-#include "spectrum.hpp"
+#include "scene/lights.hpp"
+#include "shading/spectrum.hpp"
 
 using namespace path_tracer;
 

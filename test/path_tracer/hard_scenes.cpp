@@ -5,10 +5,10 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "fixture.hpp"
-#include "gltf.hpp"
 #include "hard_support.hpp"
+#include "io/gltf.hpp"
 #include "machines.hpp"
-#include "surface.hpp"
+#include "scene/surface.hpp"
 
 using namespace path_tracer;
 

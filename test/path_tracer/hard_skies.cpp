@@ -5,8 +5,8 @@
 
 #include "fixture.hpp"
 #include "hard_support.hpp"
-#include "lights.hpp"
 #include "machines.hpp"
+#include "scene/lights.hpp"
 
 using namespace path_tracer;
 

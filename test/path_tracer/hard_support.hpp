@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bvh_support.hpp"
-#include "motion.hpp"
+#include "scene/motion.hpp"
 
 namespace path_tracer {
 

@@ -7,9 +7,9 @@
 
 #include "bsdf_support.hpp"
 #include "hard_support.hpp"
-#include "lights.hpp"
-#include "stages.hpp"
-#include "surface.hpp"
+#include "scene/lights.hpp"
+#include "scene/surface.hpp"
+#include "shading/stages.hpp"
 
 using namespace path_tracer;
 

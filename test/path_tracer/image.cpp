@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures written and read back, and files that appear whole or not at all.
-#include "image.hpp"
+#include "io/image.hpp"
 
 #include <sys/stat.h>
 
@@ -10,9 +10,9 @@
 #include <stdexcept>
 
 #include "catch.hpp"
-#include "output_file.hpp"
+#include "io/output_file.hpp"
+#include "io/third_party.hpp"
 #include "path_tracer/fixture.hpp"
-#include "third_party.hpp"
 
 #if defined(PATH_TRACER_HAS_OPENEXR) && __has_include(<ImfInputFile.h>)
 #include <ImfChannelList.h>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "lights.hpp"
+#include "scene/lights.hpp"
 
 #include <cmath>
 #include <vector>
 
 #include "catch.hpp"
-#include "random.hpp"
+#include "shading/random.hpp"
 
 using namespace path_tracer;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "noise.hpp"
+#include "shading/noise.hpp"
 
 #include <algorithm>
 #include <cmath>

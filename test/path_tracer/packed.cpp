@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The smaller records between stages, against the vectors that they stand for.
-#include "packed.hpp"
+#include "shading/packed.hpp"
 
 #include <cmath>
 #include <limits>

@@ -4,11 +4,11 @@
 #include <string>
 
 #include "catch.hpp"
-#include "gltf.hpp"
+#include "effects/scene_effects.hpp"
+#include "io/gltf.hpp"
 #include "path_tracer/fixture.hpp"
 #include "path_tracer/process.hpp"
 #include "render_support.hpp"
-#include "scene_effects.hpp"
 
 using namespace path_tracer;
 using namespace path_tracer_test;

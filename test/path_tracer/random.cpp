@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "random.hpp"
+#include "shading/random.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "render.hpp"
+#include "app/render.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "render.hpp"
+#include "app/render.hpp"
 
 namespace path_tracer {
 

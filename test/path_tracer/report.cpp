@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the path tracer says about its work: table, JSON, heat maps, progress.
-#include "report.hpp"
+#include "app/report.hpp"
 
 #include <cstdio>
 #include <limits>
 #include <stdexcept>
 
+#include "app/progress.hpp"
 #include "catch.hpp"
 #include "path_tracer/fixture.hpp"
 #include "path_tracer/process.hpp"
-#include "progress.hpp"
 
 using namespace path_tracer;
 using namespace path_tracer_test;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "gltf.hpp"
+#include "io/gltf.hpp"
 #include "machines.hpp"
 
 using namespace path_tracer;

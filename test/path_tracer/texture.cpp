@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "texture.hpp"
+#include "scene/texture.hpp"
 
 #include <vector>
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The timeline of a rendering, and the file of it.
-#include "trace.hpp"
+#include "app/trace.hpp"
 
 #include <map>
 #include <set>
 
 #include "catch.hpp"
+#include "effects/scene_effects.hpp"
 #include "path_tracer/fixture.hpp"
 #include "path_tracer/process.hpp"
 #include "path_tracer/render_support.hpp"
-#include "scene_effects.hpp"
 
 using namespace path_tracer;
 using namespace path_tracer_test;

@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "math.hpp"
-#include "random.hpp"
+#include "scene/math.hpp"
+#include "shading/random.hpp"
 
 namespace path_tracer {
 

@@ -3,10 +3,10 @@
 // the same bounds, over 10^7 inputs each: in float, against the exact value in double.
 #include "../../catch.hpp"
 #include "../hard_support.hpp"
-#include "bsdf_glass.hpp"
 #include "device_support.hpp"
-#include "lights.hpp"
-#include "surface.hpp"
+#include "scene/lights.hpp"
+#include "scene/surface.hpp"
+#include "shading/bsdf_glass.hpp"
 
 using namespace path_tracer;
 

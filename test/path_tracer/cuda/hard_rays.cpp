@@ -3,9 +3,9 @@
 // through, and triangles that none meets again; 10^7 rays each.
 #include "../../catch.hpp"
 #include "../hard_support.hpp"
-#include "bvh_builder.hpp"
 #include "device_support.hpp"
-#include "surface.hpp"
+#include "scene/bvh_builder.hpp"
+#include "scene/surface.hpp"
 
 using namespace path_tracer;
 

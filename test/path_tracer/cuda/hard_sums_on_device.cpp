@@ -8,7 +8,7 @@
 #include "../../catch.hpp"
 #include "../hard_support.hpp"
 #include "device_support.hpp"
-#include "stages.hpp"
+#include "shading/stages.hpp"
 
 using namespace path_tracer;
 

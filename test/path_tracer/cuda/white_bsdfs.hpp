@@ -3,10 +3,10 @@
 
 // White BSDFs of every type, made on the machine that runs them.
 
-#include "bsdf.hpp"
-#include "bsdf_glass.hpp"
-#include "bsdf_layers.hpp"
-#include "scene.hpp"
+#include "scene/scene.hpp"
+#include "shading/bsdf.hpp"
+#include "shading/bsdf_glass.hpp"
+#include "shading/bsdf_layers.hpp"
 
 namespace path_tracer {
 

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <deferred_shade/version.hpp>
+
+#include "effects/scene_effects.hpp"
+#include "io/image.hpp"
+
+namespace path_tracer {
+namespace {
+
+constexpr std::uint32_t largest_side = 16384, most_samples = 1u << 20, deepest = 1024;
+constexpr std::uint64_t most_pixels = std::uint64_t{1} << 26;
+
+template <class Names>
+std::vector<std::string> strings(Names const& names) {
+  return {names.begin(), names.end()};
+}
+
+std::string join(std::vector<std::string> const& names) { return CLI::detail::join(names, ", "); }
+
+/// The preferred name if this build has it, else its first.
+std::string default_name(std::vector<std::string_view> const& names, std::string const& preferred) {
+  bool const has = std::find(names.begin(), names.end(), preferred) != names.end();
+  return has || names.empty() ? preferred : std::string(names.front());
+}
+
+CLI::Validator one_of(std::vector<std::string> const& names) {
+  auto const check = [names](std::string& value) -> std::string {
+    if (std::find(names.begin(), names.end(), value) != names.end()) return {};
+    return "there is no \"" + value + "\", only " + join(names);
+  };
+  return CLI::Validator(check, "");
+}
+
+CLI::Validator effect_list_text() {
+  auto const check = [](std::string& value) -> std::string {
+    if (value == "auto" || value == "all") return {};
+    try {
+      effects_named(value);
+      return {};
+    } catch (std::invalid_argument const& e) {
+      return e.what();
+    }
+  };
+  return CLI::Validator(check, "");
+}
+
+CLI::Validator picture_path() {
+  auto const check = [](std::string& value) -> std::string {
+    if (has_image_ending(value)) return {};
+    return "the name of a picture ends in " + join(strings(image_endings())) + ", \"" + value +
+           "\" does not";
+  };
+  return CLI::Validator(check, "");
+}
+
+/// A whole number; CLI11's own conversion takes what is too large for the type without a word.
+CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
+  auto const check = [low, high](std::string& value) -> std::string {
+    bool const digits =
+        !value.empty() && value.find_first_not_of("0123456789") == std::string::npos;
+    std::string const highest = std::to_string(high);
+    value.erase(0, std::min(value.find_first_not_of('0'), value.size() - digits));
+    bool const fits = digits && (value.size() < highest.size() ||
+                                 (value.size() == highest.size() && value <= highest));
+    if (fits && std::stoull(value) >= low) return {};
+    return "\"" + value + "\" is not a whole number from " + std::to_string(low) + " to " + highest;
+  };
+  return CLI::Validator(check, "");
+}
+
+std::string version() {
+  return "gltf_path_tracer (deferred_shade) " + std::to_string(DEFERRED_SHADE_VERSION_MAJOR) + "." +
+         std::to_string(DEFERRED_SHADE_VERSION_MINOR) + "." +
+         std::to_string(DEFERRED_SHADE_VERSION_PATCH);
+}
+
+/// The help text without the empty lines that CLI11 puts before each group but the first.
+std::string help(CLI::App const& app) {
+  std::string text = app.help();
+  for (auto at = text.find("\n\n\n"); at != std::string::npos; at = text.find("\n\n\n"))
+    text.erase(at, 1);
+  return text + "\n";
+}
+
+void declare(CLI::App& app, options& o) {
+  render_settings& s = o.settings;
+  std::vector<std::string> const backend_names = strings(backends());
+  std::vector<std::string> schedule_names = strings(schedules());
+  std::string const schedule_list = join(schedule_names);
+  schedule_names.push_back("all");
+  app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  auto const text = [&](char const* name, std::string& value, std::string const& help) {
+    std::string const otherwise = value.empty() ? "" : " [" + value + "]";
+    return app.add_option(name, value, help + otherwise);
+  };
+  auto const number = [&](char const* name, auto& value, std::uint64_t low, std::uint64_t high,
+                          std::string const& help) {
+    return app.add_option(name, value, help + " [" + std::to_string(value) + "]")
+        ->transform(whole_number(low, high))
+        ->type_name("N");
+  };
+
+  auto const choice = [&](char const* name, auto& value, auto const& list,
+                          std::string const& help) {
+    std::vector<std::string> const names(std::begin(list), std::end(list));
+    using type = std::decay_t<decltype(value)>;
+    auto const take = [&value, names](std::string const& given) {
+      auto const found = std::find(names.begin(), names.end(), given);
+      value = static_cast<type>(found - names.begin());
+    };
+    app.add_option_function<std::string>(
+           name, take,
+           help + ": " + join(names) + " [" + names[static_cast<std::size_t>(value)] + "]")
+        ->check(one_of(names))
+        ->type_name("NAME");
+  };
+
+  text("scene", o.scene, "glTF 2.0 scene, .gltf or .glb")->required()->type_name("FILE");
+
+  app.option_defaults()->group("Picture");
+  text("-o,--output", o.output, "Picture to write: " + join(strings(image_endings())))
+      ->check(picture_path())
+      ->type_name("FILE");
+  number("--width", s.width, 1, largest_side, "Pixels across");
+  number("--height", s.height, 1, largest_side, "Pixels down");
+  number("--spp", s.samples, 1, most_samples, "Samples per pixel");
+  number("--max-depth", s.max_depth, 1, deepest, "Surface hits of a path at most");
+  number("--seed", s.seed, 0, UINT64_MAX, "Seed of the random numbers");
+
+  app.option_defaults()->group("Accuracy");
+  accuracy_settings& a = s.accuracy;
+  choice("--estimator", a.light, estimator_names,
+         "How light is found: by sampling both lights and BSDFs, or one\nof them");
+  number("--roulette", a.roulette_from, 1, deepest,
+         "Surface hit from which on paths may end at random");
+  choice("--sums", a.sums, summation_names, "How samples are added up");
+  number("--octaves", a.octaves, 1, 16, "Octaves of procedural textures at most");
+
+  app.option_defaults()->group("Execution");
+  text("--backend", s.backend, "Where to run: " + join(backend_names))
+      ->check(one_of(backend_names))
+      ->type_name("NAME");
+  number("--threads", s.threads, 0, 1024, "Threads of the CPU; 0: as many as it has");
+  text("--schedule", s.schedule,
+       "Order of shading: " + schedule_list +
+           ";\nor all: render with each, compare the pictures, print a table")
+      ->check(one_of(schedule_names))
+      ->type_name("NAME");
+
+  app.option_defaults()->group("Effects");
+  text("--effects", o.effects,
+       "What to simulate. auto: what the scene calls for; all: the same,\n"
+       "by code for all effects; or those of a list: " +
+           join_names(effect_bits().set()))
+      ->check(effect_list_text())
+      ->type_name("LIST");
+  app.add_flag("--explain", o.explain, "Print what calls for which effect and what was left out");
+
+  app.option_defaults()->group("Measurement");
+  text("--report", o.report, "Write settings and measurements as JSON")->type_name("FILE");
+  text("--heatmap", o.heatmap_folder,
+       "Write a picture for each bounce: how well the groups of 32\n"
+       "requests use their SIMD lanes")
+      ->type_name("DIR");
+  text("--trace", o.trace,
+       "Write what was done and when, for https://ui.perfetto.dev or\n"
+       "chrome://tracing: trace events as JSON")
+      ->type_name("FILE");
+
+  app.add_flag("-q,--quiet", o.quiet, "Print errors only")->group("Information");
+  app.set_help_flag("-h,--help", "Print this and exit")->group("Information");
+  app.set_version_flag("--version", version(), "Print the version and exit")->group("Information");
+}
+
+}  // namespace
+
+std::optional<options> parse_options(int argc, char const* const* argv, std::ostream& out) {
+  options o;
+  o.settings.backend = default_name(backends(), o.settings.backend);
+  o.settings.schedule = default_name(schedules(), o.settings.schedule);
+  CLI::App app("Renders a glTF scene by wavefront path tracing, shading through deferred_shade.",
+               "gltf_path_tracer");
+  app.get_formatter()->column_width(24);
+  app.footer(
+      "Example:\n"
+      "  gltf_path_tracer gallery.gltf -o gallery.png --spp 64 --schedule all --report gallery.json\n\n"
+      "Exit code: 0 success, 1 the scene or a file is at fault, 2 the command line is wrong.");
+  declare(app, o);
+  try {
+    app.parse(argc, argv);
+  } catch (CLI::CallForHelp const&) {
+    out << help(app);
+    return std::nullopt;
+  } catch (CLI::CallForVersion const&) {
+    out << version() << "\n";
+    return std::nullopt;
+  } catch (CLI::ParseError const& e) {
+    throw usage_error(e.what());
+  }
+  if (std::uint64_t{o.settings.width} * o.settings.height > most_pixels)
+    throw usage_error("--width times --height: the picture has more than " +
+                      std::to_string(most_pixels) + " pixels");
+  if (o.scene.empty()) throw usage_error("scene: the name of the file is empty");
+  return o;
+}
+
+}  // namespace path_tracer

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "effects/effect.hpp"
+#include "shading/bsdf.hpp"
+
+namespace path_tracer::effects {
+
+/// Surfaces that shine; paths that hit them collect their light, and next-event estimation aims at
+/// them from everywhere else. Below the emission they are matte.
+struct emitters {
+  static constexpr char const* name = "emitters";
+
+  template <class Material>
+  static bool fits(Material const& m) {
+    return max_component(m.emission) > 0;
+  }
+  template <class Point>
+  PT_HD static bsdf_matte bsdf(Point const& p) {
+    return {p.color};
+  }
+};
+
+}  // namespace path_tracer::effects

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "effects/effect.hpp"
+#include "shading/bsdf_glass.hpp"
+
+namespace path_tracer::effects {
+
+/// Whether light goes through a material (KHR_materials_transmission).
+template <class Material>
+bool is_glass(Material const& m) {
+  return m.transmission > 0 && m.metallic < metal_from;
+}
+
+/// A dielectric interface that is as good as a mirror: below this roughness a GGX lobe
+/// (alpha < 0.0009) is narrower than a pixel.
+struct smooth_glass {
+  static constexpr char const* name = "smooth-glass";
+  static constexpr real below = real(0.03);
+
+  template <class Material>
+  static bool fits(Material const& m) {
+    return is_glass(m) && m.roughness < below;
+  }
+  template <class Material>
+  static void prepare(Material& m) {
+    m.roughness = 0;
+  }
+  template <class Point>
+  PT_HD static bsdf_mix<bsdf_smooth_glass, bsdf_plastic> bsdf(Point const& p) {
+    return {{p.color, p.eta()}, p.plastic(p.color), p.material.transmission};
+  }
+};
+
+/// A dielectric interface with a GGX lobe.
+struct rough_glass {
+  static constexpr char const* name = "rough-glass";
+
+  template <class Material>
+  static bool fits(Material const& m) {
+    return is_glass(m);
+  }
+  template <class Point>
+  PT_HD static bsdf_mix<bsdf_rough_glass, bsdf_plastic> bsdf(Point const& p) {
+    auto const parameters = p.plastic_parameters(p.color);
+    return {{p.color, p.eta(), {alpha_of(parameters.roughness)}},
+            {parameters, p.scene.tables},
+            p.material.transmission};
+  }
+};
+
+/// Whether a shader is one of the two.
+template <class Effect>
+inline constexpr bool is_glass_shader =
+    std::is_same_v<Effect, smooth_glass> || std::is_same_v<Effect, rough_glass>;
+
+}  // namespace path_tracer::effects

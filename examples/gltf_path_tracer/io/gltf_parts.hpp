@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <glm/gtc/quaternion.hpp>
+#include <string>
+#include <vector>
+
+#include "io/gltf_document.hpp"
+#include "scene/scene.hpp"
+
+namespace path_tracer::gltf {
+
+/// More triangles than this are refused: 100 bytes each, and instances multiply quickly.
+inline constexpr std::size_t maximum_triangles = std::size_t{1} << 26;
+
+/// Squares of squares of lengths have to fit into a float: no coordinate in world space is larger.
+inline constexpr double farthest = 1e9;
+
+/// Transforms to world space when the shutter opens and when it closes.
+struct placement {
+  glm::dmat4 open, close;
+};
+
+/// Appends all triangles of a mesh, with their motion, seen through transforms whose determinants
+/// are not 0. Triangles without an area are left out. Throws std::runtime_error.
+void append_mesh(document& d, std::size_t mesh, placement const& place, scene& out);
+
+/// Appends all materials of the file, the default one after them, and the textures they use.
+void append_materials(document& d, scene& out);
+
+/// What animations make of a node at a moment; what they do not change, they leave empty.
+struct pose {
+  std::vector<double> translation, rotation, scale;
+};
+
+/// The animations of a file.
+class animations {
+ public:
+  animations() = default;
+  /// Throws std::runtime_error where an animation has keys that do not fit together.
+  explicit animations(document& d);
+  pose at(std::size_t node, double seconds) const;
+
+ private:
+  struct channel {
+    std::size_t node;
+    std::string path;
+    bool steps;
+    std::vector<double> times;
+    std::vector<std::vector<double>> values;
+  };
+  void add(document& d, tinygltf::Animation const& animation,
+           tinygltf::AnimationChannel const& from);
+  [[noreturn]] void fail(std::string const& what) const;
+
+  std::string where_;  ///< the animation at hand
+  std::vector<channel> channels_;
+};
+
+/// Transform of a node to its parent. Throws std::runtime_error if it cannot be inverted.
+glm::dmat4 local_transform(document const& d, std::size_t node, pose const& animated = {});
+
+/// The first camera of the traversal, and a light, as a node places them.
+camera make_camera(document const& d, std::size_t index, glm::dmat4 const& to_world);
+punctual_light make_light(document const& d, std::size_t index, glm::dmat4 const& to_world);
+
+}  // namespace path_tracer::gltf

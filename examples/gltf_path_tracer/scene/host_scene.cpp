@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/host_scene.hpp"
+
+namespace path_tracer {
+namespace {
+
+std::vector<real> srgb_table() {
+  std::vector<real> table;
+  for (int code = 0; code < 256; ++code)
+    table.push_back(srgb_to_linear(static_cast<real>(code) / real(255)));
+  return table;
+}
+
+}  // namespace
+
+host_scene::host_scene(scene const& s, accuracy_settings const& accuracy)
+    : source(s),
+      hierarchy(build_bvh(s.triangles, s.motion)),
+      lights(s, accuracy.light),
+      octaves(static_cast<int>(accuracy.octaves)),
+      linear(srgb_table()) {}
+
+scene_view host_scene::view() const {
+  return {hierarchy.view(),
+          source.triangles.data(),
+          source.materials.data(),
+          {source.textures.data(), source.texels.data(), linear.data()},
+          lights.view(source),
+          &host_albedo_tables(),
+          source.view,
+          source.background,
+          {source.medium_scattering, source.medium_scattering + source.medium_absorption,
+           source.medium_anisotropy},
+          source.motion.empty() ? nullptr : source.motion.data(),
+          octaves};
+}
+
+}  // namespace path_tracer
