@@ -19,25 +19,17 @@ import json
 import os
 import pathlib
 import platform
+import re
 import subprocess
 import sys
 import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-SCHEDULES = {
-    "implicit": "implicit_serialization",
-    "explicit": "explicit_serialization",
-    "compact+implicit": "compact_then_dispatch<ds::implicit_serialization>",
-    "compact+explicit": "compact_then_dispatch<>",
-    "sort+implicit": "sort_then_dispatch<ds::implicit_serialization>",
-    "sort+explicit": "sort_then_dispatch<>",
-    "bucket+implicit": "bucket_then_dispatch<ds::implicit_serialization>",
-    "bucket+explicit": "bucket_then_dispatch<>",
-    "local-bitonic": "local_sort_then_dispatch<ds::bitonic>",
-    "local": "local_sort_then_dispatch<>",
-    "window": "window_sort_then_dispatch",
-}
+# By the names that the library's own list has.
+SCHEDULES = {name: re.sub(r"\b(\w+_serialization|bitonic|counting)\b(?=>)", r"ds::\1", type_)
+             for name, type_ in re.findall(r'^  f\("([^"]+)", ([^;]*)\{\}\);$',
+                                           (ROOT / "include/deferred_shade/schedule.hpp").read_text(encoding="utf-8"), re.M)}
 THRUST = "#include <thrust/execution_policy.h>\n"
 LIBRARY = THRUST + "#include <deferred_shade/deferred_shade.hpp>\n"
 CALL = LIBRARY + """#include <cstdint>

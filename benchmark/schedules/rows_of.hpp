@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <type_traits>
 
 #include "../rows.hpp"
 
@@ -92,21 +93,12 @@ struct ways {
     };
     add("oracle-launches", launches, true);
     add("oracle-switch", one_launch, true);
-    add("implicit", schedule<implicit_serialization>);
-    add("explicit", schedule<explicit_serialization>);
-    add("compact+implicit", schedule<compact_then_dispatch<implicit_serialization>>);
-    add("compact+explicit", schedule<compact_then_dispatch<>>);
-    add("sort+implicit", schedule<sort_then_dispatch<implicit_serialization>>);
-    add("sort+explicit", schedule<sort_then_dispatch<>>);
-    add("bucket+implicit", schedule<bucket_then_dispatch<implicit_serialization>>);
-    add("bucket+explicit", schedule<bucket_then_dispatch<>>);
+    for_each_schedule(
+        [&](char const* name, auto const& s) { add(name, schedule<std::decay_t<decltype(s)>>); });
     if (on_cuda) {  // on a CPU, the host always knows the counts, and implicit is this switch
       add("known-counts", known_counts);
       add("switch", one_launch);
     }
-    add("local-bitonic", schedule<local_sort_then_dispatch<bitonic>>);
-    add("local", schedule<local_sort_then_dispatch<>>);
-    add("window", schedule<window_sort_then_dispatch>);
   }
 };
 

@@ -35,15 +35,13 @@ grouping group_by_bucket(Policy const& exec, Count n, Ids ids, Workspace& scratc
   }
 }
 
-/// Groups requests by Thrust's radix sort of (id, index) pairs. The keys are no wider than the
-/// table needs, so that 255 shaders take a single pass over one byte.
+/// Groups requests by a radix sort of (id, index) pairs: CUB's on CUDA, and on a CPU one of a byte
+/// at a time. The keys are no wider than the table needs: 255 shaders take a single pass.
 ///
-/// Every block is sorted by the worker that owns it, with temporary memory from the workspace; a
-/// scan over the lengths of the runs gives each run its place, and the block copies its runs there.
-/// (Thrust's own parallel sort on a CPU allocates for every call and merges block by block.)
-///
-/// For two-byte keys and blocks of 32768 requests or more, Thrust takes 512 KiB of a worker's
-/// stack.
+/// On a CPU, every block is sorted by the worker that owns it. A scan over the lengths of the runs
+/// gives each run its place, and the block copies its runs there. (Thrust's own sort allocates for
+/// every call and merges block by block, takes 512 KiB of stack for keys of two bytes, and does not
+/// compile without exceptions.)
 ///
 /// `ids` is a random-access iterator of `n` ids; `n` is a request_index, or on CUDA a device_count.
 /// The result lives in `scratch` until its next use.

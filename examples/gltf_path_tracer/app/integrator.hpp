@@ -215,23 +215,13 @@ class integrator {
 /// Calls `f` with the schedule that goes by `name`; false if there is none.
 template <class Function>
 bool with_schedule(std::string_view name, Function const& f) {
-  namespace ds = deferred_shade;
-  using implicit = ds::implicit_serialization;
-  using explicit_ = ds::explicit_serialization;
-  auto const is = [&](std::string_view n, auto const& schedule) {
-    if (name == n) f(schedule);
-    return name == n;
-  };
-  return is("implicit", implicit{}) || is("explicit", explicit_{}) ||
-         is("compact+implicit", ds::compact_then_dispatch<implicit>{}) ||
-         is("compact+explicit", ds::compact_then_dispatch<explicit_>{}) ||
-         is("sort+implicit", ds::sort_then_dispatch<implicit>{}) ||
-         is("sort+explicit", ds::sort_then_dispatch<explicit_>{}) ||
-         is("bucket+implicit", ds::bucket_then_dispatch<implicit>{}) ||
-         is("bucket+explicit", ds::bucket_then_dispatch<explicit_>{}) ||
-         is("local-bitonic", ds::local_sort_then_dispatch<ds::bitonic>{}) ||
-         is("local", ds::local_sort_then_dispatch<>{}) ||
-         is("window", ds::window_sort_then_dispatch{});
+  bool found = false;
+  deferred_shade::for_each_schedule([&](std::string_view known, auto const& schedule) {
+    if (known != name) return;
+    found = true;
+    f(schedule);
+  });
+  return found;
 }
 
 /// Renders a scene in the memory of `backend` by the schedule that the settings name, with code for

@@ -187,7 +187,8 @@ std::optional<options> parse_options(int argc, char const* const* argv, std::ost
   app.get_formatter()->column_width(24);
   app.footer(
       "Example:\n"
-      "  gltf_path_tracer gallery.gltf -o gallery.png --spp 64 --schedule all --report gallery.json\n\n"
+      "  gltf_path_tracer gallery.gltf -o gallery.png --spp 64 --schedule all --report "
+      "gallery.json\n\n"
       "Exit code: 0 success, 1 the scene or a file is at fault, 2 the command line is wrong.");
   declare(app, o);
   try {

@@ -2,6 +2,7 @@
 #include "app/render.hpp"
 
 #include <algorithm>
+#include <deferred_shade/schedule.hpp>
 #include <stdexcept>
 
 #include "app/backends.hpp"
@@ -68,10 +69,9 @@ std::vector<std::string_view> backends() {
 }
 
 std::vector<std::string_view> schedules() {
-  return {
-      "implicit",      "explicit",        "compact+implicit", "compact+explicit", "sort+implicit",
-      "sort+explicit", "bucket+implicit", "bucket+explicit",  "local-bitonic",    "local",
-      "window"};
+  std::vector<std::string_view> names;
+  deferred_shade::for_each_schedule([&](char const* name, auto const&) { names.push_back(name); });
+  return names;
 }
 
 void specialize(render_settings& settings, scene const& s) {
