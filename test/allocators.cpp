@@ -14,7 +14,7 @@
 
 namespace ds = deferred_shade;
 
-namespace {
+namespace test_allocators {
 
 /// A pointer that knows its address relative to a base, as those into shared memory do.
 template <class T>
@@ -96,7 +96,9 @@ void check_allocator() {
   });
 }
 
-}  // namespace
+}  // namespace test_allocators
+
+using namespace test_allocators;
 
 TEST_CASE("arrays are aligned whatever the allocator makes of it", "[workspace]") {
   check_allocator<misaligning_allocator<std::byte, 0>>();

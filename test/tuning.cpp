@@ -8,7 +8,7 @@
 #include "support/backends.hpp"
 #include "support/schedule_properties.hpp"
 
-namespace {
+namespace test_tuning {
 
 namespace ds = deferred_shade;
 
@@ -64,7 +64,9 @@ void check_tuning() {
   }
 }
 
-}  // namespace
+}  // namespace test_tuning
+
+using namespace test_tuning;
 
 TEMPLATE_LIST_TEST_CASE("a renderer's tuning changes no result", "[tuning]", test::backends) {
   check_tuning<TestType, other_on_cpu, 5>();

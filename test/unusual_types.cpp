@@ -14,7 +14,7 @@
 
 namespace ds = deferred_shade;
 
-namespace {
+namespace test_unusual {
 
 constexpr std::uint32_t several_tiles = 16385;
 
@@ -78,7 +78,9 @@ void check_every_schedule(Table const& table, std::vector<Value>& out, Value unt
   });
 }
 
-}  // namespace
+}  // namespace test_unusual
+
+using namespace test_unusual;
 
 TEMPLATE_LIST_TEST_CASE("a shader's result may be one that must not be dropped", "[types]",
                         test::host_backends) {

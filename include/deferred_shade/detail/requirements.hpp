@@ -65,6 +65,16 @@ template <class Source, class Function, class Sink>
 struct is_callable<record_shader<Source, Function, Sink>>
     : std::bool_constant<record_types<Source, Function, Sink>::met> {};
 
+/// Whether all hold. By a loop: a recursion over the shaders of a large table has no end.
+template <bool... Values>
+constexpr bool all_of() {
+  bool const values[] = {Values..., true};
+  for (bool const value : values) {
+    if (!value) return false;
+  }
+  return true;
+}
+
 /// The last shader that a table has.
 template <class... Shaders>
 constexpr shader_id last_id() {
@@ -79,7 +89,7 @@ struct requirements_of_shade {
   static constexpr bool on_cuda = std::is_same_v<system, cuda_system>;
   static constexpr bool exec = !std::is_void_v<system>;
 
-  static constexpr bool callable = exec && std::conjunction_v<is_callable<Shaders>...>;
+  static constexpr bool callable = exec && all_of<is_callable<Shaders>::value...>();
 
   static constexpr bool n =
       is_device_count<Count> || (std::is_integral_v<Count> && !std::is_same_v<Count, bool>);
