@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables from which `only` has taken shaders, without their gaps; ids to match.
 #include <deferred_shade/detail/shader_subset.hpp>
+#include <deferred_shade/specialized.hpp>
 
 #include <thrust/iterator/counting_iterator.h>
 #include <thrust/iterator/transform_iterator.h>
