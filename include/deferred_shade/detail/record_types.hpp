@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <deferred_shade/detail/device_lambda.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade::detail {
@@ -44,16 +45,6 @@ template <class Sink, class Result>
 inline constexpr bool stores<Sink, Result,
                              std::void_t<decltype(std::declval<Sink const&>()[request_index{}] =
                                                       std::declval<Result const&>())>> = true;
-
-/// Whether T is an extended lambda for the device alone. nvcc tells its host compiler nothing of
-/// what it returns.
-#ifdef __CUDACC_EXTENDED_LAMBDA__
-template <class T>
-inline constexpr bool is_device_lambda = __nv_is_extended_device_lambda_closure_type(T);
-#else
-template <class T>
-inline constexpr bool is_device_lambda = false;
-#endif
 
 /// The request and the result of a record shader, and what the library asks of the three parts. If
 /// it is not met, nothing else is compiled of the shader: the first error is the only one.

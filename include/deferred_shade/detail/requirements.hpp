@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <deferred_shade/detail/device_lambda.hpp>
 #include <deferred_shade/detail/ids.hpp>
 #include <deferred_shade/detail/shader_subset.hpp>
 #include <deferred_shade/detail/system.hpp>
@@ -60,7 +61,8 @@ inline constexpr bool is_on_device<cuda_allocator<T>> = true;
 
 /// Whether a shader can be called; the table or the record shader has said what is wrong if not.
 template <class Shader>
-struct is_callable : std::is_invocable<Shader const&, request_index> {};
+struct is_callable : std::bool_constant<!is_device_lambda<Shader> &&
+                                        std::is_invocable_v<Shader const&, request_index>> {};
 template <class Source, class Function, class Sink>
 struct is_callable<record_shader<Source, Function, Sink>>
     : std::bool_constant<record_types<Source, Function, Sink>::met> {};
