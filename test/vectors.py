@@ -25,6 +25,7 @@ EXPECTED = {
         "materials::matte": YES,
         "materials::fog": "no, calls expf",
         "materials::glass": "no, calls of_another_file",
+        "materials::metal": "no, calls materials::rough<float>",
         "materials::lacquer<3>": YES,
         "materials::marching": "no, (control flow in loop|has a loop of its own.*)",
         r"shade_all(": YES,

@@ -32,6 +32,16 @@ struct glass {
   float operator()(hit const& h) const { return of_another_file(h.cosine); }
 };
 
+template <class T>
+__attribute__((noinline)) T rough(T x) {
+  T sum = x;
+  for (int i = 0; i < 9; ++i) sum = sum * x + T{0.5};
+  return sum;
+}
+struct metal {
+  float operator()(hit const& h) const { return rough(h.cosine) + rough(h.distance); }
+};
+
 struct marching {
   float operator()(hit const& h) const {
     float x = h.cosine;
@@ -52,7 +62,7 @@ void shade_all(std::size_t n, std::uint8_t const* ids, hit const* hits, float* r
   auto const mirror = [](hit const& h) { return h.distance * h.cosine; };
   ds::shade(thrust::cpp::par, ds::local_sort_then_dispatch<>{}, n, ids,
             ds::record_shaders(hits, radiance, materials::matte{0.8F}, materials::fog{},
-                               materials::glass{}, materials::marching{}, materials::lacquer<3>{},
-                               mirror),
+                               materials::glass{}, materials::metal{}, materials::marching{},
+                               materials::lacquer<3>{}, mirror),
             scratch);
 }
