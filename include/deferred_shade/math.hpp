@@ -9,9 +9,9 @@
 
 /// Functions for shaders that run in vectors: those of `<cmath>` are calls, and a loop with a call
 /// in it stays scalar. These are made of arithmetic on numbers and on their bits alone, so a
-/// compiler that vectorises a shader vectorises them as well. They compare nothing: a comparison is
-/// a branch to a compiler at first, and it may send an argument that it knows, as the 0 of
-/// `std::max(c, 0.0F)`, along a path of its own. In CUDA's device code they are CUDA's own.
+/// compiler that vectorises a shader vectorises them as well. They compare no floats: to a
+/// compiler, a comparison is a branch at first, and an argument that it knows may take a path of
+/// its own, as the 0 of `std::max(c, 0.0F)`. In CUDA's device code they are CUDA's own.
 ///
 /// They take and give what `<cmath>` has, infinities and NaN included, except for the sign of a
 /// zero and what is said of each; errno and the floating-point exceptions mean nothing after them.
