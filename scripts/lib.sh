@@ -92,6 +92,10 @@ prepare() {
   check_cmake
   mkdir -p build
   has_cccl && return 0
+  if [[ -n ${CCCL_ROOT-} ]]; then
+    cmake -P scripts/search_cccl.cmake
+    exit 1
+  fi
   say "No Thrust on this machine: taking $cccl_wheel into build/cccl"
   has_pip || install_packages python3-pip:
   fetch_wheel "$cccl_wheel" build/cccl && return 0

@@ -79,6 +79,21 @@ TEST_CASE("powers are as exact as they say", "[math]") {
   CHECK(math::pow(-2, 0) == 1);
 }
 
+TEST_CASE("powers of and by the ends of numbers go where <cmath> has them", "[math]") {
+  float const least = std::numeric_limits<float>::denorm_min();
+  float const most = std::numeric_limits<float>::max();
+  float const before_one = 1 - 0x1p-24F;
+  for (float const x : {0.0F, least, before_one, 1.0F, 2.0F, most, infinity, not_a_number}) {
+    for (float const y : {0.0F, -0.0F, least, 1.0F, -1.0F, 3.0F, 149.0F, -149.0F, 151.0F, -151.0F,
+                          most, -most, infinity, -infinity, not_a_number}) {
+      CAPTURE(x, y);
+      CHECK(error_in_ulp(math::pow(x, y), std::pow(static_cast<long double>(x),
+                                                   static_cast<long double>(y))) <= 1.1);
+      CHECK(same(math::pow(-x, y), y == 0 ? 1 : x == 0 ? math::pow(x, y) : not_a_number));
+    }
+  }
+}
+
 TEST_CASE("numbers at the ends go where <cmath> has them", "[math]") {
   float const least = std::numeric_limits<float>::denorm_min();
   float const most = std::numeric_limits<float>::max();

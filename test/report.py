@@ -33,6 +33,8 @@ FAULTS = [
     (RAW + "h200-counters.json", '"bytes_read"', '"bytes"', r"md:\d+: .*h200-counters\.json.*no 'bytes_read'"),
     (RAW + "h200-counters.json", "/switch/", "/swatch/", r"md:\d+: .*h200-counters\.json.*no \('3 simple', 'switch', 1\)"),
     (RAW + "h200-bounces-1.json", '"efficiency"', '"share"', r"md:\d+: .*h200-bounces-1\.json.*no 'efficiency'"),
+    (RAW + "matrix.json", '"capability"', '"arch"', r"matrix\.md:\d+: .*matrix\.json.*no 'capability'"),
+    (RAW + "matrix.json", r'"outcome": "ok"', '"outcome": "good"', r"matrix\.md:\d+: .*a cell has another outcome"),
     (RAW + "compile-time-gcc.json", '"peak_kib"', '"kib"', r"md:\d+: .*compile-time-gcc\.json.*no 'peak_kib'"),
 ]
 

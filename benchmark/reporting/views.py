@@ -8,7 +8,7 @@ import effects
 import ratios
 import registers
 
-from . import claims, compiling, counters, hits, means, roofline, scaling, scenes, several, speedups, summary
+from . import claims, compiling, counters, hits, matrix, means, roofline, scaling, scenes, several, speedups, summary
 from .google_benchmark import Report
 
 
@@ -36,6 +36,7 @@ VIEWS = {
     "accuracy-digits": accuracy_report.digits,
     "accuracy-schedules": accuracy_report.schedules,
     "compile-time": compiling.compile_time,
+    "matrix": matrix.matrix,
     "summary": summary.summary,
     "speedup": summary.speedup,
     "means": means.means,

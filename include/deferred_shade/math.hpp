@@ -3,35 +3,70 @@
 
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include <deferred_shade/config.hpp>
 #include <deferred_shade/detail/bits.hpp>
 
 /// Functions for shaders that run in vectors: those of `<cmath>` are calls, and a loop with a call
-/// in it stays scalar. These are made of arithmetic and selections alone, so that a compiler that
-/// vectorises a shader vectorises them as well. In CUDA's device code they are CUDA's own.
+/// in it stays scalar. These are made of arithmetic on numbers and on their bits alone, so a
+/// compiler that vectorises a shader vectorises them as well. They compare no floats: to a
+/// compiler, a comparison is a branch at first, and an argument that it knows may take a path of
+/// its own, as the 0 of `std::max(c, 0.0F)`. In CUDA's device code they are CUDA's own.
 ///
-/// They take and give what `<cmath>` has, infinities and NaN included, but for the sign of a zero
-/// and what is said of each; errno and the floating-point exceptions mean nothing after them. The
-/// errors in units in the last place are those of the host, which test/math.cpp finds against long
-/// double; CUDA states its own. Not for -ffast-math, which drops NaN and infinity.
+/// They take and give what `<cmath>` has, infinities and NaN included, except for the sign of a
+/// zero and what is said of each; errno and the floating-point exceptions mean nothing after them.
+/// The errors in units in the last place are those of the host, which test/math.cpp finds against
+/// long double; CUDA states its own. Not for -ffast-math, which drops NaN and infinity.
 namespace deferred_shade::math {
 namespace detail {
 
-inline constexpr float infinity = std::numeric_limits<float>::infinity();
-inline constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
-inline constexpr float least_normal = (std::numeric_limits<float>::min)();
-inline constexpr float largest = (std::numeric_limits<float>::max)();
+using deferred_shade::detail::bits_as;
+
+inline constexpr std::uint32_t sign_bit = 0x80000000;
+inline constexpr std::uint32_t bits_of_one = 0x3f800000;
+inline constexpr std::uint32_t bits_of_infinity = 0x7f800000;
+
+/// All bits if the highest bit of `word` is set, else none.
+DEFERRED_SHADE_HOST_DEVICE inline std::uint32_t mask_of_sign(std::uint32_t word) {
+  return static_cast<std::uint32_t>(static_cast<std::int32_t>(word) >> 31);
+}
+
+/// All bits if `word` is 0, else none.
+DEFERRED_SHADE_HOST_DEVICE inline std::uint32_t mask_of_zero(std::uint32_t word) {
+  return detail::mask_of_sign(~word & (word - 1));
+}
+
+/// `a` where `mask` has bits, and `b` elsewhere.
+DEFERRED_SHADE_HOST_DEVICE inline std::uint32_t select(std::uint32_t mask, std::uint32_t a,
+                                                       std::uint32_t b) {
+  return (a & mask) | (b & ~mask);
+}
+
+/// x with a magnitude of at most `limit`, which is positive; NaN becomes `limit` or its negative.
+DEFERRED_SHADE_HOST_DEVICE inline float clamp(float x, float limit) {
+  auto const bits = detail::bits_as<std::uint32_t>(x);
+  auto const magnitude = static_cast<std::int32_t>(bits & ~sign_bit);
+  auto const most = detail::bits_as<std::int32_t>(limit);
+  auto const least = static_cast<std::uint32_t>(magnitude < most ? magnitude : most);
+  return detail::bits_as<float>((bits & sign_bit) | least);
+}
+
+/// NaN if `x` is, else `result`.
+DEFERRED_SHADE_HOST_DEVICE inline float nan_or(float x, float result) {
+  std::uint32_t const magnitude = detail::bits_as<std::uint32_t>(x) & ~sign_bit;
+  std::uint32_t const is_nan = detail::mask_of_sign(bits_of_infinity - magnitude);
+  return detail::bits_as<float>(detail::bits_as<std::uint32_t>(result) | is_nan);
+}
 
 /// 2 to the power of n, which is -126 to 127.
 DEFERRED_SHADE_HOST_DEVICE inline float power_of_two(std::int32_t n) {
-  return deferred_shade::detail::bits_as<float>((n + 127) << 23);
+  return detail::bits_as<float>((n + 127) << 23);
 }
 
-/// exp(r) * 2^n for |r| <= 0.35, whatever is left of it where that is too small or too large. By
-/// exp's series, whose first missing term is under a tenth of an ulp. In two steps, because 2^n
-/// alone may be neither a normal number nor finite.
+/// exp(r) * 2^n for |r| <= 0.35 and |n| <= 160, whatever is left of it where that is too small or
+/// too large. By exp's series, whose first missing term is under a tenth of an ulp. In two steps,
+/// because 2^n alone may be neither a normal number nor finite. A processor may take long for a
+/// product that is too small for a float, so those that become 0 are not computed.
 DEFERRED_SHADE_HOST_DEVICE inline float scaled_exp(float r, std::int32_t n) {
   float sum = 1.0F / 5040;
   sum = sum * r + 1.0F / 720;
@@ -40,19 +75,23 @@ DEFERRED_SHADE_HOST_DEVICE inline float scaled_exp(float r, std::int32_t n) {
   sum = sum * r + 1.0F / 6;
   sum = sum * r + 0.5F;
   sum = sum * r * r + r + 1;
-  std::int32_t const half = n >> 1;
-  return sum * power_of_two(half) * power_of_two(n - half);
+  std::uint32_t const is_0 = detail::mask_of_sign(static_cast<std::uint32_t>(n + 151));
+  auto const some = static_cast<std::int32_t>(static_cast<std::uint32_t>(n) & ~is_0);
+  std::int32_t const half = some >> 1;
+  float const result = sum * power_of_two(half) * power_of_two(some - half);
+  return detail::bits_as<float>(detail::bits_as<std::uint32_t>(result) & ~is_0);
 }
 
-/// log2(x) for finite x > 0, to 1e-10: with x = m 2^e and s = (m - 1) / (m + 1), by the series of
-/// ln(m) = 2 artanh(s).
-DEFERRED_SHADE_HOST_DEVICE inline double log2_of(float x) {
-  bool const tiny = x < least_normal;
-  float const normal = tiny ? x * 0x1p23F : x;
-  auto const bits = deferred_shade::detail::bits_as<std::int32_t>(normal);
+/// log2(x), where x has these bits and is finite and positive, to 1e-10: with x = m 2^e and
+/// s = (m - 1) / (m + 1), by the series of ln(m) = 2 artanh(s).
+DEFERRED_SHADE_HOST_DEVICE inline double log2_of(std::uint32_t x) {
+  // What is smaller than the smallest normal number is multiplied by 2^23.
+  std::uint32_t const tiny = detail::mask_of_sign(x - 0x00800000);
+  float const scale = detail::bits_as<float>(bits_of_one + (tiny & 23U << 23));
+  auto const bits = detail::bits_as<std::int32_t>(detail::bits_as<float>(x) * scale);
   // m lies between the square roots of 1/2 and 2: 0x3f3504f3 are the bits of the first.
   std::int32_t const e = (bits - 0x3f3504f3) >> 23;
-  double const m = deferred_shade::detail::bits_as<float>(bits - e * 0x800000);
+  double const m = detail::bits_as<float>(bits - e * 0x800000);
   double const s = (m - 1) / (m + 1);
   double const t = s * s;
   double sum = 1.0 / 13;
@@ -63,17 +102,36 @@ DEFERRED_SHADE_HOST_DEVICE inline double log2_of(float x) {
   sum = sum * t + 1.0 / 3;
   sum = sum * t + 1;
   double const two_by_ln2 = 2.88539008177792681472;
-  return (tiny ? e - 23 : e) + two_by_ln2 * s * sum;
+  return (e - static_cast<std::int32_t>(tiny & 23)) + two_by_ln2 * s * sum;
+}
+
+/// log2(x) for every x. Where `finite` has all bits, it is a finite number for every x.
+DEFERRED_SHADE_HOST_DEVICE inline double log2_of_any(float x, std::uint32_t finite) {
+  auto const bits = detail::bits_as<std::uint32_t>(x);
+  // Finite and positive: bits from 1 to those before infinity's.
+  std::uint32_t const ordinary =
+      detail::mask_of_sign(~(bits | (bits - 1)) & (bits - bits_of_infinity));
+  // Minus infinity for 0, NaN below it, and x above it.
+  std::uint32_t const others =
+      detail::select(detail::mask_of_zero(bits & ~sign_bit), sign_bit | bits_of_infinity,
+                     bits | detail::mask_of_sign(bits));
+  // One of both is 0.
+  return detail::log2_of(detail::select(ordinary, bits, bits_of_one)) +
+         static_cast<double>(detail::bits_as<float>(others & ~(ordinary | finite)));
 }
 
 /// The sine of x + quarters * pi / 2.
-DEFERRED_SHADE_HOST_DEVICE inline float shifted_sine(float x, int quarters) {
-  double const wide = x;
+DEFERRED_SHADE_HOST_DEVICE inline float shifted_sine(float x, std::int32_t quarters) {
+  auto const bits = detail::bits_as<std::uint32_t>(x);
+  std::uint32_t const is_finite = detail::mask_of_sign((bits & ~sign_bit) - bits_of_infinity);
+  double const wide = detail::bits_as<float>(bits & is_finite);
   double const n = std::floor(wide * 0.63661977236758134308 + 0.5);
-  // pi / 2 in two parts; the first has 33 bits, so that its product with n < 2^20 is exact.
+  // pi / 2 in two parts; the first has 33 bits, hence its product with n < 2^20 is exact.
   double const left = wide - n * 1.57079632673412561417 - n * 6.07710050650619224932e-11;
-  auto const r = static_cast<float>(left < -0.7854 ? -0.7854 : left > 0.7854 ? 0.7854 : left);
-  double const quadrant = n + quarters - 4 * std::floor(0.25 * (n + quarters));
+  float const r = detail::clamp(static_cast<float>(left), 0.7854F);
+  double const turns = std::floor(0.25 * (n + quarters));
+  auto const quadrant =
+      static_cast<std::uint32_t>(static_cast<std::int32_t>(n + quarters - 4 * turns));
   float const t = r * r;
   float sine = 1.0F / 362880;
   sine = sine * t - 1.0F / 5040;
@@ -86,9 +144,11 @@ DEFERRED_SHADE_HOST_DEVICE inline float shifted_sine(float x, int quarters) {
   cosine = cosine * t + 1.0F / 24;
   cosine = cosine * t - 0.5F;
   cosine = cosine * t + 1;
-  float const value = quadrant == 1 || quadrant == 3 ? cosine : sine;
-  float const result = quadrant >= 2 ? -value : value;
-  return std::fabs(x) <= largest ? result : x - x;
+  std::uint32_t const value =
+      detail::select(detail::mask_of_sign(quadrant << 31), detail::bits_as<std::uint32_t>(cosine),
+                     detail::bits_as<std::uint32_t>(sine));
+  // Two quadrants are negative. x - x is 0, or NaN for infinities and NaN.
+  return detail::bits_as<float>(value ^ (quadrant << 30 & sign_bit)) + (x - x);
 }
 
 }  // namespace detail
@@ -98,13 +158,11 @@ DEFERRED_SHADE_HOST_DEVICE inline float exp(float x) {
 #ifdef __CUDA_ARCH__
   return ::expf(x);
 #else
-  float const some = x == x ? x : 0;
-  float const bounded = some < -104 ? -104 : some > 89 ? 89 : some;
+  float const bounded = detail::clamp(x, 110);
   float const n = std::floor(bounded * 1.44269504F + 0.5F);
-  // ln 2 in two parts; the first has 9 bits, so that its product with n is exact.
+  // ln 2 in two parts; the first has 9 bits, hence its product with n is exact.
   float const r = bounded - n * 0.693359375F + n * 2.12194440e-4F;
-  float const result = detail::scaled_exp(r, static_cast<std::int32_t>(n));
-  return x == x ? result : x;
+  return detail::nan_or(x, detail::scaled_exp(r, static_cast<std::int32_t>(n)));
 #endif
 }
 
@@ -113,11 +171,7 @@ DEFERRED_SHADE_HOST_DEVICE inline float log(float x) {
 #ifdef __CUDA_ARCH__
   return ::logf(x);
 #else
-  bool const ordinary = x > 0 && x < detail::infinity;
-  auto const result =
-      static_cast<float>(0.69314718055994530942 * detail::log2_of(ordinary ? x : 1));
-  float const other = x == 0 ? -detail::infinity : x < 0 ? detail::not_a_number : x;
-  return ordinary ? result : other;
+  return static_cast<float>(0.69314718055994530942 * detail::log2_of_any(x, 0));
 #endif
 }
 
@@ -126,16 +180,19 @@ DEFERRED_SHADE_HOST_DEVICE inline float pow(float x, float y) {
 #ifdef __CUDA_ARCH__
   return x < 0 && y != 0 ? ::nanf("") : ::powf(x == 0 ? 0.0F : x, y);
 #else
-  bool const ordinary = x > 0 && x < detail::infinity;
-  double const of_others = x == 0 ? -detail::infinity : x < 0 ? detail::not_a_number : x;
-  double const exponent = y * (ordinary ? detail::log2_of(x) : of_others);
-  double const some = exponent == exponent ? exponent : 0;
-  double const bounded = some < -160 ? -160 : some > 160 ? 160 : some;
-  double const n = std::floor(bounded + 0.5);
-  auto const r = static_cast<float>((bounded - n) * 0.69314718055994530942);
+  // The exponent is 0 if y is 0, whatever x is, and if x is 1, whatever y is.
+  auto const bits = detail::bits_as<std::uint32_t>(y);
+  std::uint32_t const y_is_0 = detail::mask_of_zero(bits & ~detail::sign_bit);
+  std::uint32_t const x_is_1 =
+      detail::mask_of_zero(detail::bits_as<std::uint32_t>(x) ^ detail::bits_of_one);
+  double const exponent =
+      static_cast<double>(detail::bits_as<float>(bits & ~x_is_1)) * detail::log2_of_any(x, y_is_0);
+  auto const narrow = static_cast<float>(exponent);
+  float const n = std::floor(detail::clamp(narrow, 160) + 0.5F);
+  // Beyond 160, r is anything positive, and the result is infinity; below -160, the result is 0.
+  auto const r = static_cast<float>((exponent - static_cast<double>(n)) * 0.69314718055994530942);
   float const result = detail::scaled_exp(r, static_cast<std::int32_t>(n));
-  float const other = exponent == exponent ? result : detail::not_a_number;
-  return y == 0 || x == 1 ? 1 : other;
+  return detail::nan_or(narrow, result);
 #endif
 }
 

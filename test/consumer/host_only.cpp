@@ -3,6 +3,7 @@
 // memory throws.
 #include <cuda_runtime_api.h>
 #include <cstdio>
+#include <deferred_shade/schedule.hpp>  // what reserve asks
 
 #include "project/cuda/renderer.hpp"
 

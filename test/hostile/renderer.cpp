@@ -5,17 +5,22 @@
 #include <thrust/copy.h>
 #include <thrust/device_vector.h>
 #include <thrust/execution_policy.h>
+#include <thrust/system/cpp/execution_policy.h>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <vector>
+#ifdef DEFERRED_SHADE_TEST_OMP
+#include <thrust/system/omp/execution_policy.h>
+#endif
+#ifdef DEFERRED_SHADE_TEST_TBB
+#include <thrust/system/tbb/execution_policy.h>
+#endif
+
 #include "hostile_functions.hpp"  // generated; before the library, as a renderer's headers may be
 
 #include <deferred_shade/deferred_shade.hpp>
 #include <deferred_shade/specialized.hpp>
-#ifdef DEFERRED_SHADE_TEST_TBB
-#include <thrust/system/tbb/execution_policy.h>
-#endif
 
 namespace ds = deferred_shade;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <thrust/execution_policy.h>
 
+#include "../support/every_schedule.hpp"
 #include "shade_sum.hpp"
-#include "support/every_schedule.hpp"
 
 bool first_unit() {
   bool right = true;

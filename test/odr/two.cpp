@@ -4,7 +4,7 @@
 
 #include <thrust/execution_policy.h>
 
-#include "support/every_schedule.hpp"
+#include "../support/every_schedule.hpp"
 
 bool first_unit();
 

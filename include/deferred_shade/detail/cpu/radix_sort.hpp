@@ -46,7 +46,7 @@ constexpr int radix_passes(std::uint32_t largest) {
 template <shader_id Shaders, class Key, class Ids>
 void sort_block(Ids const& ids, request_index first, std::size_t size, key_pairs<Key> sorted,
                 key_pairs<Key> other) {
-  constexpr int passes = radix_passes(Shaders);
+  constexpr int passes = detail::radix_passes(Shaders);
   key_pairs<Key> from = passes % 2 == 0 ? sorted : other;
   key_pairs<Key> to = passes % 2 == 0 ? other : sorted;
   detail::load_keys<Shaders>(detail::ids_from(ids, first), size, from.keys);

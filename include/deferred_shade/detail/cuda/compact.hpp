@@ -80,7 +80,7 @@ grouping compact_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Wor
                        "stream compaction");
   };
   std::size_t bytes = 0;
-  select(nullptr, bytes, 0, nullptr, nullptr, nullptr);
+  detail::select(nullptr, bytes, 0, nullptr, nullptr, nullptr);
   auto const [permutation, memory, offsets] =
       scratch.take(elements<request_index>(maximum), elements<std::byte>(bytes),
                    elements<request_index>(Shaders + 1));
@@ -89,7 +89,7 @@ grouping compact_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Wor
   request_index* begin = offsets;
   for (shader_id k = 0; k < Shaders; ++k) {
     if (!wanted[k]) continue;
-    select(memory, bytes, k, permutation, begin, offsets + k + 1);
+    detail::select(memory, bytes, k, permutation, begin, offsets + k + 1);
     begin = offsets + k + 1;
   }
   if (!wanted.all()) {
