@@ -6,7 +6,8 @@
     test/compile_fail.py --complete                 # does every static_assert have a file?
 
 A comment `// error: REGEX` of a file, of one line or more, says what the compiler's first error says; `// errors: N`
-says how many there are at most, 1 if there is no such line. With -DRIGHT, the file compiles: the fault is the one that it shows, and no other.
+says how many there are at most, 1 if there is no such line; `// by every schedule: TEXT`, that for each schedule an error
+has the text, with the schedule's type in place of SCHEDULE. With -DRIGHT, the file compiles: the fault is the one that it shows, and no other.
 """
 import re
 import subprocess
@@ -34,6 +35,18 @@ def expected_of(text):
     return lines.replace("\n// ", " ")
 
 
+def schedules():
+    """The types of all schedules, as compilers print them: from the library's own list."""
+    text = (HERE.parent / "include/deferred_shade/schedule.hpp").read_text()
+    found = re.findall(r'^  f\("[^"]+", ([^;]*)\{\}\);$', text, re.MULTILINE)
+    return [plain(re.sub(r"\b(?=[a-z])", "deferred_shade::", name)) for name in found]
+
+
+def plain(text):
+    """Names as every compiler prints them: without spaces, and without a :: in front."""
+    return re.sub(r"(?<![\w>])::", "", re.sub(r"\s", "", text))
+
+
 def check(file, command):
     text = Path(file).read_text()
     expected = expected_of(text)
@@ -45,6 +58,11 @@ def check(file, command):
         return "the first error is\n  %s\nand not\n  %s" % (wrong[0], expected)
     if len(wrong) > most:
         return "%d errors, at most %d expected:\n  %s" % (len(wrong), most, "\n  ".join(wrong))
+    by_every_schedule = re.search(r"^// by every schedule: (.+)$", text, re.MULTILINE)
+    for schedule in schedules() if by_every_schedule else []:
+        what = by_every_schedule[1].replace("SCHEDULE", schedule)
+        if not any(plain(what) in plain(line) for line in wrong):
+            return "no error says %s" % what
     right = errors_of(command + ["-DRIGHT", file])
     if right:
         return "with -DRIGHT, it does not compile:\n  " + right[0]

@@ -122,7 +122,8 @@ class workspace {
   template <class Schedules = detail::every_schedule>
   static constexpr std::size_t bytes_for(std::size_t n, std::size_t shaders) noexcept {
     static_assert(detail::is_complete<Schedules>,
-                  "include <deferred_shade/schedule.hpp>, which knows what schedules take");
+                  "deferred_shade: reserve and bytes_for ask every schedule what it takes; include "
+                  "<deferred_shade/schedule.hpp>");
     std::size_t const on_host = Schedules::workspace_bytes(detail::host_system{}, n, shaders);
     if constexpr (detail::is_for_hosts_alone<Allocator>) {
       return on_host;

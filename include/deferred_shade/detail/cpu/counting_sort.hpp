@@ -70,7 +70,9 @@ inline constexpr std::size_t compared_bytes = vector_bytes != 0 &&
 template <shader_id Shaders, request_index Parts, std::size_t VectorBytes>
 class key_counts {
   static constexpr bool compares = VectorBytes != 0;
-  static_assert(!compares || Shaders <= 0xff, "keys that are compared have one byte");
+  static_assert(
+      !compares || Shaders <= 0xff,
+      "deferred_shade: cpu_tuning::compares_keys must be false for more than 255 shaders");
   using key = sort_key<Shaders>;
 
  public:

@@ -22,10 +22,14 @@ template <shader_id Shaders, class Policy, class Count, class Ids, class Workspa
 grouping bucket_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Workspace& scratch) {
   constexpr bucket_algorithm algorithm = cuda_tuning_of<Workspace>::bucket(Shaders);
   if constexpr (algorithm == bucket_algorithm::lanes) {
-    static_assert(Shaders <= warp_size, "tuning::bucket: a warp has lanes for 32 shaders");
+    static_assert(
+        Shaders <= warp_size,
+        "deferred_shade: cuda_tuning::bucket must not choose lanes for more than 32 shaders");
     return detail::small_bucket_grouping<Shaders>(detail::stream_of(exec), n, ids, scratch);
   } else if constexpr (algorithm == bucket_algorithm::counters) {
-    static_assert(Shaders <= 511, "tuning::bucket: shared memory has counters for 511 shaders");
+    static_assert(
+        Shaders <= 511,
+        "deferred_shade: cuda_tuning::bucket must not choose counters for more than 511 shaders");
     return detail::large_bucket_grouping<Shaders>(detail::stream_of(exec), n, ids, scratch);
   } else {
     return detail::radix_grouping<Shaders>(cuda_system{}, exec, n, ids, scratch);

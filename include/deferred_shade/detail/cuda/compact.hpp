@@ -69,8 +69,9 @@ grouping compact_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Wor
   thrust::counting_iterator<request_index> const requests(0);
   // The segment of a shader begins at `*begin`, where the one before ends: its launch has written
   // that.
-  auto const select = [&](void* memory, std::size_t& bytes, shader_id k, request_index* permutation,
-                          request_index const* begin, request_index* end_at) {
+  auto const select_shader = [&](void* memory, std::size_t& bytes, shader_id k,
+                                 request_index* permutation, request_index const* begin,
+                                 request_index* end_at) {
     auto const places = thrust::make_transform_iterator(requests, add_offset{begin});
     auto const segment = thrust::make_permutation_iterator(permutation, places);
     auto const end = thrust::make_transform_output_iterator(end_at, add_offset{begin});
@@ -80,7 +81,7 @@ grouping compact_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Wor
                        "stream compaction");
   };
   std::size_t bytes = 0;
-  detail::select(nullptr, bytes, 0, nullptr, nullptr, nullptr);
+  select_shader(nullptr, bytes, 0, nullptr, nullptr, nullptr);
   auto const [permutation, memory, offsets] =
       scratch.take(elements<request_index>(maximum), elements<std::byte>(bytes),
                    elements<request_index>(Shaders + 1));
@@ -89,7 +90,7 @@ grouping compact_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Wor
   request_index* begin = offsets;
   for (shader_id k = 0; k < Shaders; ++k) {
     if (!wanted[k]) continue;
-    detail::select(memory, bytes, k, permutation, begin, offsets + k + 1);
+    select_shader(memory, bytes, k, permutation, begin, offsets + k + 1);
     begin = offsets + k + 1;
   }
   if (!wanted.all()) {

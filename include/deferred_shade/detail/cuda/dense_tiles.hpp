@@ -22,7 +22,7 @@ __global__ void __launch_bounds__(Threads)
     dense_kernel(Count n, Ids ids, shader_list<Shaders...> const __grid_constant__ shaders) {
   using sort = tile_sort<sizeof...(Shaders), Threads, Items>;
   static_assert((sizeof...(Shaders) + 1) * sort::size <= 0x10000,
-                "tuning::tile: a dense tile has entries of 16 bits, for 63 shaders");
+                "deferred_shade: cuda_tuning::tile must not choose dense for more than 63 shaders");
   __shared__ typename sort::temporary_storage temporary;
   __shared__ std::uint32_t starts[sort::columns];
   __shared__ std::uint16_t order[sort::size];  // shaders and positions

@@ -114,12 +114,16 @@ void run_tiles(cuda_system here, counting, Policy const& exec, Count n, Ids ids,
   if constexpr (algorithm == tile_algorithm::bitonic) {
     detail::run_tiles(here, bitonic{}, exec, n, ids, shaders, scratch);
   } else if constexpr (algorithm == tile_algorithm::staged) {
-    static_assert(records, "tuning::tile: this table cannot be staged (docs/limits.md, Records)");
+    static_assert(records,
+                  "deferred_shade: cuda_tuning::tile must not choose staged for tables that cannot "
+                  "be staged (docs/limits.md, Records)");
     detail::run_staged<tuning>(exec, n, ids, shaders);
   } else if constexpr (algorithm == tile_algorithm::dense) {
     detail::run_dense_tiles<tuning>(exec, n, ids, shaders);
   } else {
-    static_assert(sizeof...(Shaders) <= 255, "tuning::tile: rows have counters for 255 shaders");
+    static_assert(
+        sizeof...(Shaders) <= 255,
+        "deferred_shade: cuda_tuning::tile must not choose rows for more than 255 shaders");
     detail::launch<&tile_kernel<tuning::tile_threads, tuning::tile_items, Count, Ids, Shaders...>>(
         "local_sort_then_dispatch", detail::stream_of(exec),
         {detail::blocks_for(detail::maximum_of(n), tuning::tile_threads * tuning::tile_items),

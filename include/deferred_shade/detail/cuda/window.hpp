@@ -41,7 +41,7 @@ void run_windows(cuda_system, Policy const& exec, Count n, Ids ids,
                  shader_table<Shaders...> const& shaders, Workspace& scratch) {
   using tuning = cuda_tuning_of<Workspace>;
   static_assert(sizeof...(Shaders) <= warp_size,
-                "tuning::windows: a table of more than 32 shaders does not run in windows");
+                "deferred_shade: cuda_tuning::windows must be false for more than 32 shaders");
   window_grouping const windows =
       detail::group_windows<sizeof...(Shaders)>(detail::stream_of(exec), n, ids, scratch);
   [[maybe_unused]] auto const dispatched = scratch.begin_phase({"dispatch"});

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shared memory has counters for 511 shaders.
+// error: cuda_tuning::bucket must not choose counters for more than 511 shaders
+#include "cuda.hpp"
+
+template <int>
+using counted_mark = mark;
+template <int... Ids>
+auto table(float* out, std::integer_sequence<int, Ids...>) {
+  return ds::shader_table<counted_mark<Ids>...>{((void)Ids, mark{out})...};
+}
+struct choice : ds::tuning {
+  struct cuda : ds::tuning::cuda {
+    static constexpr ds::bucket_algorithm bucket(ds::shader_id) {
+      return ds::bucket_algorithm::counters;
+    }
+  };
+};
+#ifdef RIGHT
+constexpr int size = 40;
+#else
+constexpr int size = 512;
+#endif
+void f(std::uint16_t* ids, float* out, device_workspace& scratch) {
+  ds::tuned tuned{scratch, choice{}};
+  ds::shade(thrust::cuda::par, ds::bucket_then_dispatch<ds::implicit_serialization>{}, 5, ids,
+            table(out, std::make_integer_sequence<int, size>()), tuned);
+}

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// An entry of a dense tile has 16 bits.
+// error: cuda_tuning::tile must not choose dense for more than 63 shaders
+#include "cuda.hpp"
+
+template <int>
+using counted_mark = mark;
+template <int... Ids>
+auto table(float* out, std::integer_sequence<int, Ids...>) {
+  return ds::shader_table<counted_mark<Ids>...>{((void)Ids, mark{out})...};
+}
+struct choice : ds::tuning {
+  struct cuda : ds::tuning::cuda {
+    static constexpr ds::tile_algorithm tile(ds::shader_id, bool) {
+      return ds::tile_algorithm::dense;
+    }
+  };
+};
+#ifdef RIGHT
+constexpr int size = 63;
+#else
+constexpr int size = 64;
+#endif
+void f(std::uint16_t* ids, float* out, device_workspace& scratch) {
+  ds::tuned tuned{scratch, choice{}};
+  ds::shade(thrust::cuda::par, ds::local_sort_then_dispatch<>{}, 5, ids,
+            table(out, std::make_integer_sequence<int, size>()), tuned);
+}
