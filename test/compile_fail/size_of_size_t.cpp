@@ -2,12 +2,8 @@
 // A target of 32 bits, by another name for its std::size_t.
 // error: std::size_t must have 64 bits, in which sizes of batches are computed; compile for a
 // 64-bit target
-#include <thrust/for_each.h>
-#include <thrust/iterator/counting_iterator.h>
-
-#include <algorithm>
 #include <cstddef>
-#include <cstdint>
+#include <deferred_shade/detail/cpu/parallel_for.hpp>
 #include <numeric>
 #ifndef RIGHT
 #define size_t uint32_t

@@ -10,7 +10,14 @@
 #include <cstdint>
 #include <type_traits>
 #if __has_include(<tbb/task_arena.h>)
+// Its headers do not survive macros of these names, which a renderer may have.
+#pragma push_macro("min")
+#pragma push_macro("max")
+#undef min
+#undef max
 #include <tbb/task_arena.h>
+#pragma pop_macro("max")
+#pragma pop_macro("min")
 #define DEFERRED_SHADE_HAS_TBB 1
 #else
 #define DEFERRED_SHADE_HAS_TBB 0
