@@ -90,7 +90,7 @@ TEMPLATE_LIST_TEST_CASE("what fits one worker runs on the thread that called", "
   }
 }
 
-#ifndef DEFERRED_SHADE_TEST_SANITIZED  // which make frames larger
+#ifndef DEFERRED_SHADE_TEST_SANITIZED
 template <std::uint32_t Shaders, class Schedule>
 void check_stack(Schedule const& schedule) {
   std::uint32_t const n = 70001;

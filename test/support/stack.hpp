@@ -6,6 +6,15 @@
 #include <cstring>
 #include <memory>
 
+// Sanitizers make frames larger, and unoptimised code does.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__OPTIMIZE__)
+#define DEFERRED_SHADE_TEST_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define DEFERRED_SHADE_TEST_SANITIZED 1
+#endif
+#endif
+
 namespace test {
 
 /// The bytes of stack that a call of `f` takes, on a thread whose stack was painted before.
