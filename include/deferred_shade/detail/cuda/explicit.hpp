@@ -74,26 +74,25 @@ struct segment_launches {
   }
 };
 
-/// Launches the kernels of all shaders that may occur, with `arguments(id)` and the shader. All
-/// must fit a grid before the first one runs.
+/// Calls `launch_one(id, shader, shape, first)` for all shaders that may occur. All must fit a grid
+/// before the first one runs. (Asked once for each: what a host does for a launch takes as long as
+/// what a GPU does for a short shader.)
 template <class Launches, class... Shaders, class Workspace, class Launch>
 void launch_each(Launches const& launches, shader_table<Shaders...> const& shaders,
                  Workspace const& scratch, Launch const& launch_one) {
   auto const expected = shaders.expected();
-  shaders.for_each([&](auto id, auto const& shader) {
-    using type = std::decay_t<decltype(shader)>;
-    if (expected[id]) {
-      detail::check_grid("explicit_serialization",
-                         launches.template shape<decltype(id)::value, type>());
-    }
-  });
-  bool first = true;
+  launch_shape shapes[sizeof...(Shaders)];
   shaders.for_each([&](auto id, auto const& shader) {
     using type = std::decay_t<decltype(shader)>;
     if (!expected[id]) return;
+    shapes[id] = launches.template shape<decltype(id)::value, type>();
+    detail::check_grid("explicit_serialization", shapes[id]);
+  });
+  bool first = true;
+  shaders.for_each([&](auto id, auto const& shader) {
+    if (!expected[id]) return;
     [[maybe_unused]] auto const running = scratch.begin_phase({"shader", id});
-    launch_one(id, shader, launches.template shape<decltype(id)::value, type>(),
-               std::exchange(first, false));
+    launch_one(id, shader, shapes[id], std::exchange(first, false));
   });
 }
 

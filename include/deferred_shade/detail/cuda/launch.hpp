@@ -40,8 +40,8 @@ __device__ request_index size_of(device_count<Integer> n) {
 
 /// What a launch asks for. A grid of no blocks is not launched.
 struct launch_shape {
-  std::size_t blocks;
-  std::uint32_t threads;
+  std::size_t blocks = 0;
+  std::uint32_t threads = 0;
   std::size_t shared_bytes = 0;
   bool prefers_cache = false;  ///< to shared memory, where both come out of one memory
 };
