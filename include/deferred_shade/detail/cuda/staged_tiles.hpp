@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include <deferred_shade/detail/cuda/architectures.hpp>
+#include <deferred_shade/detail/cuda/begin_tile.hpp>
 #include <deferred_shade/detail/cuda/call.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
 #include <deferred_shade/detail/cuda/staging.hpp>
@@ -46,12 +47,9 @@ __global__ void __launch_bounds__(Threads)
     return reinterpret_cast<char*>(slots) + position * records::slot;
   };
 
-  detail::begin_after_earlier_kernels();
-  std::size_t const tile = std::size_t{blockIdx.x} * sort::size;
-  std::size_t const end = detail::size_of(n);
-  if (tile >= end) return;
-  auto const first = static_cast<request_index>(tile);
-  auto const size = static_cast<std::uint32_t>((min)(std::size_t{sort::size}, end - tile));
+  request_index first;
+  std::uint32_t size;
+  if (!detail::begin_tile<sort::size>(n, first, size)) return;
 
   if constexpr (records::copies_words) {
     if (one_source) {

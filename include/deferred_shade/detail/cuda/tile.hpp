@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include <deferred_shade/detail/cuda/architectures.hpp>
+#include <deferred_shade/detail/cuda/begin_tile.hpp>
 #include <deferred_shade/detail/cuda/call.hpp>
 #include <deferred_shade/detail/cuda/dense_tiles.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
@@ -31,12 +32,9 @@ __global__ void __launch_bounds__(Threads)
   __shared__ std::uint32_t starts[sort::columns];
   __shared__ tile_rows<sort> rows;
   __shared__ std::uint16_t order[sort::size];
-  detail::begin_after_earlier_kernels();
-  std::size_t const tile = std::size_t{blockIdx.x} * sort::size;
-  std::size_t const end = detail::size_of(n);
-  if (tile >= end) return;
-  auto const first = static_cast<request_index>(tile);
-  auto const size = static_cast<std::uint32_t>((min)(std::size_t{sort::size}, end - tile));
+  request_index first;
+  std::uint32_t size;
+  if (!detail::begin_tile<sort::size>(n, first, size)) return;
 
   std::uint32_t keys[Items];
   std::uint32_t places[Items];
@@ -60,14 +58,12 @@ template <class Count, class Ids, class... Shaders>
 __global__ void __launch_bounds__(bitonic::tile)
     bitonic_kernel(Count n, Ids ids, shader_list<Shaders...> const __grid_constant__ shaders) {
   __shared__ std::uint32_t keys[bitonic::tile];
-  detail::begin_after_earlier_kernels();
   std::uint32_t const t = threadIdx.x;
-  std::size_t const tile = std::size_t{blockIdx.x} * bitonic::tile;
-  std::size_t const end = detail::size_of(n);
-  if (tile >= end) return;
-  auto const first = static_cast<request_index>(tile);
+  request_index first;
+  std::uint32_t size;
+  if (!detail::begin_tile<bitonic::tile>(n, first, size)) return;
   std::uint32_t key = 0xffffffffU;
-  if (tile + t < end) {
+  if (t < size) {
     key = detail::bitonic_key<sizeof...(Shaders)>(
         detail::shader_of(ids, first + t, sizeof...(Shaders)), t);
   }
