@@ -49,9 +49,8 @@ struct implicit_serialization {
 /// One launch per shader. Schedule 2 of Hoberock et al., HPG 2009, and, over a grouping, the
 /// second half of its schedules 4 and 6.
 ///
-/// On CUDA, launches overlap where the GPU can, and a shader may say how many threads a block of
-/// its launch has, where it knows better than the library, which takes as many, up to 256, as fill
-/// the device:
+/// On CUDA, launches overlap if the GPU can do that. A launch has as many threads in a block, up to
+/// 256, as fill the device. A shader may set another number (shader_traits.hpp):
 ///
 ///     struct marble { static constexpr int block_size = 128; /* ... */ };
 struct explicit_serialization {

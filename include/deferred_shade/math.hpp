@@ -13,10 +13,10 @@
 /// compiler, a comparison is a branch at first, and an argument that it knows may take a path of
 /// its own, as the 0 of `std::max(c, 0.0F)`. In CUDA's device code they are CUDA's own.
 ///
-/// They take and give what `<cmath>` has, infinities and NaN included, except for the sign of a
-/// zero and what is said of each; errno and the floating-point exceptions mean nothing after them.
-/// The errors in units in the last place are those of the host, which test/math.cpp finds against
-/// long double; CUDA states its own. Not for -ffast-math, which drops NaN and infinity.
+/// Results are those of `<cmath>`, infinities and NaN included, except for the sign of a zero and
+/// what each function says. errno and the floating-point flags are unspecified. Errors in units in
+/// the last place are those of the host: test/math.cpp compares with long double. CUDA states its
+/// own. Not for -ffast-math, which drops NaN and infinity.
 namespace deferred_shade::math {
 namespace detail {
 

@@ -9,9 +9,9 @@
 namespace deferred_shade {
 
 /// An observer that makes a range of NVTX of every phase, in a domain of the library's own, for
-/// Nsight Systems and other tools: "group", "dispatch", "shader 3". Of use on CPUs as well, and
-/// without a CUDA compiler: NVTX is a library of headers, which comes with the CUDA toolkit, and
-/// the one that is not included by deferred_shade.hpp.
+/// Nsight Systems and other tools: "group", "dispatch", "shader 3". Works on CPUs as well. Needs
+/// NVTX's headers, which come with the CUDA toolkit, and no CUDA compiler. deferred_shade.hpp does
+/// not include it.
 ///
 ///     deferred_shade::observed seen{scratch, deferred_shade::nvtx_ranges{}};
 struct nvtx_ranges {

@@ -41,8 +41,8 @@ struct workspace_wrapper {
 
 }  // namespace detail
 
-/// A workspace whose observer is told what a schedule does, for a profiler or a timeline. It goes
-/// where the workspace would; there, no code is made for it.
+/// A workspace whose observer is told what a schedule does, for a profiler or a timeline. Pass it
+/// in place of the workspace. A workspace that is not observed costs nothing.
 ///
 /// `Observer` is a function object that is cheap to copy, called with each phase. What it returns,
 /// any value if it needs none, lives as long as the phase and ends with it, by an exception as

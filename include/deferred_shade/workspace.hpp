@@ -54,9 +54,9 @@ struct elements {
 ///
 /// One workspace serves one `shade` at a time; on CUDA, also one stream at a time. `Allocator` is
 /// any standard allocator, Thrust's among them; the memory it gives must be accessible where
-/// `shade` runs. From a policy for CUDA comes one with a cuda_allocator, which allocates on the
-/// device that is current then. A workspace that grows gives its old memory back first: on CUDA,
-/// if the allocator does not wait for the device as cudaFree does, reserve, or wait, before that.
+/// `shade` runs. A policy for CUDA gives one with a cuda_allocator, which allocates on the device
+/// that is current when it grows. A workspace that grows frees its old memory first. On CUDA,
+/// reserve or wait before that if the allocator does not wait for the device as cudaFree does.
 ///
 ///     deferred_shade::workspace scratch{thrust::omp::par};
 ///     deferred_shade::workspace mine{my_allocator<std::byte>{pool}};

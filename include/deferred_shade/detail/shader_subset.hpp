@@ -82,9 +82,9 @@ auto without_gaps(shader_table<Shaders...> const& shaders, std::index_sequence<P
   return dense.expecting(expected_here);
 }
 
-/// Runs a schedule. On a GPU, a table of up to 32 places that has no shader in some of them is one
-/// of fewer shaders, by other ids: nothing is counted, sorted or launched for a shader that is not
-/// there. (On a CPU, where ids are looked at one by one, that costs more than it gains.)
+/// Runs a schedule. On a GPU, a table of up to 32 places loses its empty ones, and ids are
+/// renumbered: nothing is counted, sorted or launched for a shader that is not there. (A CPU looks
+/// at ids one by one, so this costs more than it gains there.)
 template <class System, class Schedule, class Policy, class Count, class Ids, class... Shaders,
           class Workspace>
 void run_schedule(System, Schedule const& schedule, Policy const& exec, Count n, Ids ids,

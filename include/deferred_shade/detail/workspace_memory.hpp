@@ -15,7 +15,7 @@ inline constexpr bool is_complete = false;
 template <class T>
 inline constexpr bool is_complete<T, std::void_t<decltype(sizeof(T))>> = true;
 
-// Memory of std::allocator is none of a GPU; memory of others may be.
+// Memory of std::allocator is never that of a GPU; memory of others may be.
 template <class Allocator>
 inline constexpr bool is_for_hosts_alone = false;
 template <class T>

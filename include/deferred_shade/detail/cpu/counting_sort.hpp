@@ -177,9 +177,9 @@ request_index quarters_same(Key const* keys, request_index size) {
   return looks == 0 ? 0 : 4 * same / looks;
 }
 
-/// Puts one number to the place of its key. What lies behind that is prefetched into the cache
-/// `Ahead`: processors do so by themselves too late, and for many places not at all. `none` is for
-/// places that are near each other.
+/// Puts one number to the place of its key. Prefetches ahead of it into the cache `Ahead`: a
+/// processor does that too late, and not at all for many places. `none` is for places that are near
+/// each other.
 template <cache Ahead, class Number>
 void place_one(std::size_t key, Number number, std::uint32_t* next, Number* places) {
   std::uint32_t const place = next[key]++;

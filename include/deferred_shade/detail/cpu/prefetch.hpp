@@ -10,9 +10,9 @@
 
 namespace deferred_shade::detail {
 
-/// Brings what lies at pointer[i] near to this core, or the place for what will be written there.
-/// Knows pointers only; the address need not be valid. It is never said that something will be
-/// written: the instruction for that knows no second-level cache.
+/// Brings the line of pointer[i] near to this core, to be read or written. Does nothing if
+/// `pointer` is no pointer. The address need not be valid. Always prefetches to read: the
+/// instruction for writes does not know the second-level cache.
 template <cache To, class Pointer>
 void prefetch([[maybe_unused]] Pointer const& pointer, [[maybe_unused]] request_index i) noexcept {
 #if DEFERRED_SHADE_HAS_GNU

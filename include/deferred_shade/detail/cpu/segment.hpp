@@ -53,9 +53,9 @@ void prefetch_records(Shader const& shader, request_index i) noexcept {
 }
 
 /// Runs a shader on the requests `index_of(j)` for j from 0 to `count` - 1, which is at most
-/// `packed_lanes`, and calls `ahead(j)` between loads. A function of its own, so that all shaders
-/// have their lanes in the same place of the stack, and with all that it calls inlined, since a
-/// loop with a call in it stays scalar.
+/// `packed_lanes`, and calls `ahead(j)` between loads. Kept out of line: all shaders then have
+/// their lanes in the same place of the stack. All that it calls is inlined: a loop with a call
+/// stays scalar.
 template <class Shader, class IndexOf, class Ahead>
 DEFERRED_SHADE_FLATTEN void run_packed(Shader const& shader, std::size_t count, IndexOf index_of,
                                        Ahead ahead) {

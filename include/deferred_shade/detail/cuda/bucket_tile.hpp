@@ -35,8 +35,8 @@ struct tile_of_block {
     detail::load_neighbours<Shaders>(ids, first + mine, mine < size ? size - mine : 0, keys);
   }
 
-  /// The same, packed and in any order, for tables of at most 15 shaders. Those that name none have
-  /// any id that the table lacks.
+  /// The same in four bits each and in any order, for tables of at most 15 shaders. Requests
+  /// without a shader get some id outside of the table.
   template <shader_id Shaders, class Ids>
   __device__ four_bit_keys load_four_bit_neighbours_of_thread(Ids const& ids) const {
     if constexpr (std::is_pointer_v<Ids> && std::is_convertible_v<Ids, std::uint8_t const*>) {

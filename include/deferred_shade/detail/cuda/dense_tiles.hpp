@@ -57,10 +57,10 @@ void launch_dense(Policy const& exec, Count n, Ids ids, shader_table<Shaders...>
       n, ids, shaders);
 }
 
-// What a request leaves over of the memory that is read or written for it waits in the second-level
-// cache for its neighbours in the tile. With one request for each thread, no more of them are under
-// way than in a plain switch, and the cache has room. Several for each thread fill warps better,
-// and are taken where the batch is so small that it is under way as a whole then.
+// The unused bytes of a sector wait in the second-level cache for neighbouring requests of the
+// tile. With one request for each thread, no more requests are under way than in a plain switch,
+// and the cache has room. With several, warps are fuller: that is for batches which all run at once
+// then.
 template <class Tuning, class Policy, class Count, class Ids, class... Shaders>
 void run_dense_tiles(Policy const& exec, Count n, Ids ids,
                      shader_table<Shaders...> const& shaders) {

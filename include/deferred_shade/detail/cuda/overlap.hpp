@@ -5,14 +5,13 @@
 
 // Kernels of one stream that overlap, from compute capability 9.0 on ("programmatic dependent
 // launch" in CUDA's guide): the blocks of a kernel move in while the last blocks of the one ahead
-// still run. So a kernel that launch() starts has to wait by itself: by its end at the latest for
-// everything ahead of it, and before it reads what that writes. Elsewhere both functions do
-// nothing.
+// still run. So each kernel that launch() starts waits by itself: before it reads what an earlier
+// kernel writes, and at the latest before it ends. On other GPUs both functions do nothing.
 //
-// The first kernel of a call to shade() waits before it lets the next one start. What the renderer
-// wrote before the call is therefore done when any of them runs: those behind wait for each other's
-// results alone. That they also see it rests on what every launch does, to drop what the
-// first-level caches hold; CUB's kernels rest on it as well.
+// The first kernel of a call to shade() waits before it lets the next one start. So what the
+// renderer wrote before the call is done when any of them runs, and those behind wait for each
+// other's results alone. They also see it, because every launch drops what the first-level caches
+// hold. CUB's kernels rely on that as well.
 
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
