@@ -3,6 +3,7 @@
 // a trait. Nothing of `detail` is named here.
 #include <deferred_shade/dispatch.hpp>
 #include <deferred_shade/grouping.hpp>
+#include <deferred_shade/schedule.hpp>
 #include <deferred_shade/shade.hpp>
 #include <deferred_shade/shader_traits.hpp>
 #include <deferred_shade/workspace.hpp>
@@ -50,6 +51,22 @@ struct in_turn_then_dispatch {
                   ds::shader_table<Shaders...> const& shaders, Workspace& scratch) const {
     Dispatch{}(exec, group_in_turn<sizeof...(Shaders)>(n, ids, scratch), shaders, scratch);
   }
+};
+
+/// A workspace of somebody else's: the members that workspace.hpp names, and no other.
+template <class Memory>
+class pool {
+ public:
+  explicit pool(Memory& memory) : memory_(&memory) {}
+  template <class... T>
+  auto take(ds::elements<T>... arrays) {
+    return memory_->take(arrays...);
+  }
+  void reserve(std::size_t n, std::size_t shaders) { memory_->reserve(n, shaders); }
+  int begin_phase(ds::phase const&) const { return 0; }
+
+ private:
+  Memory* memory_;
 };
 
 /// Somebody else's function, which cannot be given a member any more.
@@ -101,4 +118,30 @@ TEST_CASE("a stranger's trait speaks for a type of somebody else", "[stranger]")
   ds::shade(thrust::cpp::par, ds::local_sort_then_dispatch<>{}, 100, ids.data(),
             ds::record_shaders(in.data(), out.data(), stranger::shiny{}), scratch);
   CHECK(std::count(out.begin(), out.end(), 3.0F) == 100);
+}
+
+TEMPLATE_LIST_TEST_CASE("a stranger's workspace serves every schedule, and tables with gaps",
+                        "[stranger]", test::backends) {
+  namespace ds = deferred_shade;
+  std::uint32_t const n = 20011;
+  std::uint32_t const seed = test::run_seed();
+  auto const ids = test::make_ids<std::uint8_t>(test::layout::random, n, 5, seed);
+  auto const there = test::on<TestType>(ids);
+  ds::workspace memory{TestType::policy()};
+  stranger::pool<decltype(memory)> scratch(memory);
+  ds::for_each_schedule([&](char const* name, auto const& schedule) {
+    CAPTURE(name, seed);
+    test::trace<TestType> actual(n);
+    auto const shaders = test::tracing_table<5>(actual.value.data(), actual.runs.data());
+    ds::shade(TestType::policy(), schedule, n, there.data(), shaders.template only<1, 3, 4>(),
+              scratch);
+    TestType::wait();
+    test::trace<test::cpp> expected(n);
+    for (std::uint32_t i = 0; i < n; ++i) {
+      if (ids[i] != 1 && ids[i] != 3 && ids[i] != 4) continue;
+      expected.value[i] = test::arithmetic(ids[i], i);
+      expected.runs[i] = 1;
+    }
+    test::check_same(actual, expected);
+  });
 }

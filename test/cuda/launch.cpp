@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a shader says of its own launch, and what may be a shader or an iterator of ids.
+#include <thrust/iterator/constant_iterator.h>
 #include <thrust/iterator/transform_iterator.h>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "catch.hpp"
@@ -33,6 +35,16 @@ struct sized_shader {
 struct plain_shader {
   unsigned* threads;
   DEFERRED_SHADE_HOST_DEVICE void operator()(ds::request_index i) const { note_block(threads, i); }
+};
+
+/// Notes that any of its requests ran.
+template <int Size>
+struct mark_shader {
+  static constexpr int block_size = Size;
+  unsigned* ran;
+  DEFERRED_SHADE_HOST_DEVICE void operator()(ds::request_index i) const {
+    if (i == 0) *ran = 1;
+  }
 };
 
 /// A record shader's function may say it as well.
@@ -171,4 +183,29 @@ TEST_CASE("shaders of a large table run on a GPU", "[cuda]") {
   test::check_against_loop<gpu, 300>(ds::sort_then_dispatch<ds::implicit_serialization>{}, n,
                                      words.data(), scratch);
   test::check_against_loop<gpu, 300>(ds::local_sort_then_dispatch<>{}, n, words.data(), scratch);
+}
+
+// [api_error]: see memory.cpp.
+TEST_CASE("a launch that does not fit a grid is refused before any shader runs",
+          "[cuda][api_error]") {
+  auto ran = test::on<gpu>(std::vector<unsigned>(1, 0));
+  unsigned* const out = ran.data();
+  ds::workspace scratch{gpu::policy()};
+  // All requests name shader 0, which fits. Shader 1 has a block for each request.
+  std::uint32_t const n = 3000000000U;
+  ds::shader_table const shaders{mark_shader<256>{out}, mark_shader<1>{out}};
+  std::string message;
+  try {
+    ds::shade(gpu::policy(), ds::explicit_serialization{}, n,
+              thrust::constant_iterator<std::uint8_t>(0), shaders, scratch);
+  } catch (ds::cuda_error const& error) {
+    message = error.what();
+    CHECK(error.code() == cudaErrorInvalidConfiguration);
+  }
+  gpu::wait();
+  CAPTURE(message);
+  CHECK(message.find("3000000000 blocks") != std::string::npos);
+  CHECK(message.find("block_size") != std::string::npos);
+  CHECK(ran[0] == 0);
+  CHECK(cudaGetLastError() == cudaSuccess);
 }
