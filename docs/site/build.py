@@ -152,7 +152,7 @@ class Site:
         version = re.findall(r"VERSION_(?:MAJOR|MINOR|PATCH) +(\d+)",
                              (root / "include/deferred_shade/version.hpp").read_text(encoding="utf-8"))
         public = [p for p in (root / "include").glob("**/*.hpp")
-                  if "cuda" not in p.parts or p.name in ("allocator.hpp", "nvtx.hpp", "runtime.hpp")]
+                  if "cuda" not in p.parts or p.name == "tuning.hpp"]
         settings = (here / "Doxyfile").read_text(encoding="utf-8") + "\n".join([
             f"PROJECT_NUMBER = {'.'.join(version)}", f'OUTPUT_DIRECTORY = "{self.output}"',
             f'USE_MDFILE_AS_MAINPAGE = "{self.stage / "index.md"}"',
