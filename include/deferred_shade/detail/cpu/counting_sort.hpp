@@ -10,6 +10,7 @@
 
 #include <deferred_shade/config.hpp>
 #include <deferred_shade/detail/cpu/prefetch.hpp>
+#include <deferred_shade/detail/cpu/tuning.hpp>
 #include <deferred_shade/types.hpp>
 
 // The steps of a stable counting sort on a CPU: ids are loaded as keys, which compilers make
@@ -184,7 +185,7 @@ template <cache Ahead, class Number>
 void place_one(std::size_t key, Number number, std::uint32_t* next, Number* places) {
   std::uint32_t const place = next[key]++;
   places[place] = number;
-  detail::prefetch<Ahead>(places, place + 128 / sizeof(Number));
+  detail::prefetch<Ahead>(places, place + prefetched_bytes / sizeof(Number));
 }
 
 /// The same as key_counts::place with no counts of these keys, one after the other.
@@ -219,7 +220,7 @@ void place_by_keys(Key const* keys, request_index size, Number first, std::uint3
     if (detail::are_same(keys + i)) {
       Number* const here = places + next[keys[i]];
       next[keys[i]] += key_step;
-      detail::prefetch<Ahead>(here, 320 / sizeof(Number));
+      detail::prefetch<Ahead>(here, prefetched_bytes_by_eight / sizeof(Number));
       for (request_index j = 0; j < key_step; ++j) here[j] = static_cast<Number>(number + j);
     } else {
       detail::place_each<Ahead>(keys + i, key_step, number, next, places);

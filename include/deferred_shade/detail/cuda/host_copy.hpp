@@ -10,6 +10,7 @@
 #include <deferred_shade/detail/checked_count.hpp>
 #include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
+#include <deferred_shade/detail/cuda/tuning.hpp>
 #include <deferred_shade/types.hpp>
 
 // For reports, which the host makes: copies of what lies on a CUDA device.
@@ -53,8 +54,9 @@ std::vector<shader_id> ids_on_host(cudaStream_t stream, std::size_t n, Ids ids) 
     ~buffer() { cuda_allocator<shader_id>().deallocate(ids, 0); }
     shader_id* ids;
   } const device(n);
-  detail::launch<&copy_ids_kernel<Ids>>("copying ids", stream, {detail::blocks_for(n, 256), 256}, n,
-                                        ids, device.ids);
+  detail::launch<&copy_ids_kernel<Ids>>("copying ids", stream,
+                                        {detail::blocks_for(n, copy_threads), copy_threads}, n, ids,
+                                        device.ids);
   detail::check_cuda(cudaMemcpyAsync(copy.data(), device.ids, n * sizeof(shader_id),
                                      cudaMemcpyDeviceToHost, stream),
                      "copying ids");

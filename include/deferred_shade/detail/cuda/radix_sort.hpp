@@ -7,6 +7,7 @@
 
 #include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
+#include <deferred_shade/detail/cuda/tuning.hpp>
 #include <deferred_shade/detail/cuda/warp.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/types.hpp>
@@ -47,7 +48,7 @@ __global__ void radix_offsets_kernel(std::size_t size, Key const* keys, request_
 template <shader_id Shaders, class Policy, class Count, class Ids, class Workspace>
 grouping radix_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Workspace& scratch) {
   using key = sort_key<Shaders>;
-  constexpr std::uint32_t threads = 256;
+  constexpr std::uint32_t threads = copy_threads;
   std::size_t const maximum = detail::maximum_of(n);
   cudaStream_t const stream = detail::stream_of(exec);
   detail::forget_earlier_error();
