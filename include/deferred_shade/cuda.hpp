@@ -14,10 +14,10 @@
 
 namespace deferred_shade {
 
-/// What is thrown where a call of the CUDA runtime fails; the message says what was being done.
+/// Thrown if a call of the CUDA runtime fails. The message says what was being done.
 ///
-/// Not thrust::system_error: the name of Thrust's namespace holds the list of GPU architectures, so
-/// that a source compiled by g++ could not catch what one compiled by nvcc throws.
+/// It is not thrust::system_error: Thrust's namespace is named after the list of GPU architectures,
+/// and code compiled by g++ could not catch what code compiled by nvcc throws.
 class cuda_error : public std::runtime_error {
  public:
   cuda_error(cudaError_t code, char const* doing)
@@ -33,23 +33,24 @@ class cuda_error : public std::runtime_error {
 
 namespace detail {
 
-/// Throws a cuda_error where `status` is one. Allocates nothing where it is not.
+/// Throws a cuda_error if `status` is an error. Allocates nothing if it is not.
 inline void check_cuda(cudaError_t status, char const* doing) {
   if (status == cudaSuccess) return;
-  cudaGetLastError();  // else the next call would report it again
+  cudaGetLastError();  // or the next call would report it again
   detail::fail<cuda_error>(status, doing);
 }
 
-/// Before a call of CUB, which would take what the renderer left there for an error of its own.
+/// Clears a pending error of the renderer's. Called before CUB, which would report it as its own.
 inline void forget_earlier_error() { cudaGetLastError(); }
 
-/// Frees memory of a device. CUDA may refuse that while a stream is captured, in this thread or
-/// another one: then the memory is kept, and freed by a later call.
+/// Frees memory of a device. CUDA may refuse that while this thread or another one captures a
+/// stream. The memory is then kept, and a later call frees it.
 inline void free_on_device(void* memory) noexcept {
   static std::mutex mutex;
   static std::vector<void*> refused;
   std::lock_guard<std::mutex> const lock(mutex);
-  // In this mode, a capture of this thread does not forbid it, and it does not end the capture.
+  // In relaxed mode, a capture by this thread does not forbid cudaFree, which does not end it
+  // either.
   cudaStreamCaptureMode mode = cudaStreamCaptureModeRelaxed;
   cudaThreadExchangeStreamCaptureMode(&mode);
   auto const is_freed = [](void* pointer) {
@@ -64,13 +65,11 @@ inline void free_on_device(void* memory) noexcept {
 
 }  // namespace detail
 
-/// An allocator of memory on the current CUDA device: what a workspace takes unless it is given
-/// another one.
+/// Allocates memory on the current CUDA device. A workspace for a CUDA policy uses it by default.
 ///
-/// Needs no CUDA compiler, only the headers of the CUDA runtime and its library, so that a
-/// translation unit for the host can hold a `workspace<cuda_allocator<std::byte>>`. Throws
-/// cuda_error, with the bytes and the device in its message, where the memory cannot be
-/// had.
+/// Needs the headers and the library of the CUDA runtime, but no CUDA compiler: code for the host
+/// can hold a `workspace<cuda_allocator<std::byte>>`. `allocate` throws cuda_error if CUDA refuses;
+/// the message names the bytes and the device.
 template <class T>
 struct cuda_allocator {
   using value_type = T;
@@ -93,7 +92,7 @@ struct cuda_allocator {
     return static_cast<T*>(memory);
   }
 
-  // Waits for what runs on the device.
+  // Waits for all work on the device.
   void deallocate(T* memory, std::size_t) noexcept { detail::free_on_device(memory); }
 
   template <class U>

@@ -18,10 +18,10 @@
 
 namespace deferred_shade {
 
-/// One launch over all requests, with a switch: where neighbours need different shaders, the
-/// hardware runs one after the other. Schedule 1 of Hoberock et al., HPG 2009, and, over a
-/// grouping, the second half of its schedules 3 and 5. On CUDA, the loads and stores of record
-/// shaders are taken out of the switch (docs/gpu.md).
+/// Runs all requests in one launch, with a switch over their shaders. If neighbouring lanes need
+/// different shaders, the hardware runs these one after the other. Schedule 1 of Hoberock et al.,
+/// HPG 2009; over a grouping, the second half of its schedules 3 and 5. On CUDA, record shaders
+/// load and store outside of the switch (docs/gpu.md).
 struct implicit_serialization {
   /// It takes none of a workspace.
   template <class Policy>
@@ -29,7 +29,7 @@ struct implicit_serialization {
     return 0;
   }
 
-  /// The schedule: requests as they come.
+  /// As a schedule: runs requests in the order of their indices.
   template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
                   Workspace& scratch) const {
@@ -37,7 +37,8 @@ struct implicit_serialization {
     detail::run_implicit(detail::system_of<Policy>{}, exec, n, ids, shaders, scratch);
   }
 
-  /// The dispatch: requests as `group` orders them. `scratch` is there for its observer.
+  /// As a dispatch: runs requests in the order of `group`. `scratch` gives its observer and its
+  /// tuning, and no memory.
   template <class Policy, class... Shaders, class Workspace = workspace<>>
   void operator()(Policy const& exec, grouping group, shader_table<Shaders...> const& shaders,
                   Workspace const& scratch = {}) const {
@@ -46,11 +47,11 @@ struct implicit_serialization {
   }
 };
 
-/// One launch per shader. Schedule 2 of Hoberock et al., HPG 2009, and, over a grouping, the
-/// second half of its schedules 4 and 6.
+/// Runs each shader in a launch of its own. Schedule 2 of Hoberock et al., HPG 2009; over a
+/// grouping, the second half of its schedules 4 and 6.
 ///
-/// On CUDA, launches overlap if the GPU can do that. A launch has as many threads in a block, up to
-/// 256, as fill the device. A shader may set another number (shader_traits.hpp):
+/// On CUDA, the launches overlap from compute capability 9.0 on. A block has the number of threads,
+/// up to 256, that maximises occupancy. A shader may set another number (shader_traits.hpp):
 ///
 ///     struct marble { static constexpr int block_size = 128; /* ... */ };
 struct explicit_serialization {
@@ -60,7 +61,7 @@ struct explicit_serialization {
     return 0;
   }
 
-  /// The schedule: every launch visits all requests and masks those of other shaders.
+  /// As a schedule: every launch visits all requests and masks those of other shaders.
   template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
   void operator()(Policy const& exec, Count n, Ids ids, shader_table<Shaders...> const& shaders,
                   Workspace& scratch) const {
@@ -68,10 +69,10 @@ struct explicit_serialization {
     detail::run_explicit(detail::system_of<Policy>{}, exec, n, ids, shaders, scratch);
   }
 
-  /// The dispatch: every launch visits the segment of its shader. On CPUs, an empty one is not
-  /// launched; on CUDA the length is read by the launch itself, so that the host need not wait:
-  /// shader_table::expecting spares the launches of shaders that a scene does not have. `scratch`
-  /// is there for its observer.
+  /// As a dispatch: every launch visits the segment of its shader. On a CPU, empty segments are not
+  /// launched. On CUDA, the kernel reads the length, and the host does not wait for it: empty
+  /// segments are launched as well, except for shaders that shader_table::expecting rules out.
+  /// `scratch` gives its observer, and no memory.
   template <class Policy, class... Shaders, class Workspace = workspace<>>
   void operator()(Policy const& exec, grouping group, shader_table<Shaders...> const& shaders,
                   Workspace const& scratch = {}) const {

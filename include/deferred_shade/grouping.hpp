@@ -19,9 +19,10 @@
 
 namespace deferred_shade {
 
-/// Groups requests by one parallel stable counting pass: every block counts its shaders, a scan
-/// over the counts gives each block its place in each segment, and the block puts its requests
-/// there. Reads the ids twice and writes the permutation once.
+/// Groups requests by one parallel, stable counting sort. Every block counts its shaders. A scan
+/// over the counts gives each block its place in each segment. The block writes its requests there.
+/// Reads the ids twice and writes the permutation once. On CUDA, tables of more than 511 shaders go
+/// to group_by_radix_sort.
 ///
 /// `ids` is a random-access iterator of `n` ids; `n` is a request_index, or on CUDA a device_count.
 /// The result lives in `scratch` until its next use.
@@ -35,12 +36,12 @@ grouping group_by_bucket(Policy const& exec, Count n, Ids ids, Workspace& scratc
   }
 }
 
-/// Groups requests by a radix sort of (id, index) pairs: CUB's on CUDA, and on a CPU one of a byte
-/// at a time. The keys are no wider than the table needs: 255 shaders take a single pass.
+/// Groups requests by a radix sort of (id, index) pairs. CUDA uses CUB's sort; a CPU sorts by one
+/// byte in each pass. Keys are no wider than the table needs: 255 shaders take a single pass.
 ///
-/// On a CPU, every block is sorted by the worker that owns it. A scan over the lengths of the runs
-/// gives each run its place, and the block copies its runs there. (Thrust's own sort allocates for
-/// every call and merges block by block, takes 512 KiB of stack for keys of two bytes, and does not
+/// On a CPU, the worker that owns a block sorts it. A scan over the lengths of the runs gives each
+/// run its place, and the worker copies it there. (Thrust's own sort is not used: it allocates in
+/// every call, merges block by block, takes 512 KiB of stack for keys of two bytes, and does not
 /// compile without exceptions.)
 ///
 /// `ids` is a random-access iterator of `n` ids; `n` is a request_index, or on CUDA a device_count.
@@ -56,13 +57,15 @@ grouping group_by_radix_sort(Policy const& exec, Count n, Ids ids, Workspace& sc
 }
 
 /// Groups requests by one stream compaction per shader, "select, scan, scatter" (Hoberock, Lu, Jia
-/// and Hart, "Stream Compaction for Deferred Shading", HPG 2009, section 4.1): every block counts
-/// the requests of the shader, a scan over the counts gives each block its place, and the block
-/// copies its requests there. Reads the ids twice per shader: the work grows with n * shaders.
+/// and Hart, "Stream Compaction for Deferred Shading", HPG 2009, section 4.1). On a CPU, every
+/// block counts the requests of the shader, a scan over the counts gives each block its place, and
+/// the block copies its requests there. On CUDA, CUB's DeviceSelect does that. Reads the ids once
+/// (CUDA) or twice (CPU) for each shader: the work grows with n * shaders.
 ///
 /// `ids` is a random-access iterator of `n` ids; `n` is a request_index, or on CUDA a device_count.
-/// The result lives in `scratch` until its next use. Only the shaders that are `wanted` are
-/// compacted, the segments of others are empty.
+/// The result lies in memory of `scratch`, until its next use. Only `wanted` shaders are compacted;
+/// the segments of the others are empty. Throws what `scratch` throws, and cuda_error if CUDA
+/// refuses.
 template <shader_id Shaders, class Policy, class Count, class Ids, class Workspace>
 grouping group_by_compaction(Policy const& exec, Count n, Ids ids, Workspace& scratch,
                              std::bitset<Shaders> const& wanted = std::bitset<Shaders>().set()) {

@@ -7,16 +7,16 @@
 #include <deferred_shade/config.hpp>
 #include <deferred_shade/detail/bits.hpp>
 
-/// Functions for shaders that run in vectors: those of `<cmath>` are calls, and a loop with a call
-/// in it stays scalar. These are made of arithmetic on numbers and on their bits alone, so a
-/// compiler that vectorises a shader vectorises them as well. They compare no floats: to a
-/// compiler, a comparison is a branch at first, and an argument that it knows may take a path of
-/// its own, as the 0 of `std::max(c, 0.0F)`. In CUDA's device code they are CUDA's own.
+/// Functions that a compiler can vectorise together with the shader that calls them. Functions of
+/// `<cmath>` are library calls, and a loop with a call stays scalar. These are made of arithmetic
+/// on numbers and on their bits alone. They compare no floats: compilers turn a comparison into a
+/// branch first, and may give a known argument, such as the 0 of `std::max(c, 0.0F)`, a path of its
+/// own. In device code they call CUDA's functions.
 ///
-/// Results are those of `<cmath>`, infinities and NaN included, except for the sign of a zero and
-/// what each function says. errno and the floating-point flags are unspecified. Errors in units in
-/// the last place are those of the host: test/math.cpp compares with long double. CUDA states its
-/// own. Not for -ffast-math, which drops NaN and infinity.
+/// Results match `<cmath>`, including infinities and NaN, except for signed zero and as noted.
+/// errno and the floating-point flags are unspecified. Errors are in units in the last place (ulp)
+/// and hold on the host; test/math.cpp compares with long double. CUDA documents its own. Do not
+/// compile with -ffast-math, which drops NaN and infinity.
 namespace deferred_shade::math {
 namespace detail {
 
@@ -36,13 +36,13 @@ DEFERRED_SHADE_HOST_DEVICE inline std::uint32_t mask_of_zero(std::uint32_t word)
   return detail::mask_of_sign(~word & (word - 1));
 }
 
-/// `a` where `mask` has bits, and `b` elsewhere.
+/// The bits of `a` where those of `mask` are set, and the bits of `b` elsewhere.
 DEFERRED_SHADE_HOST_DEVICE inline std::uint32_t select(std::uint32_t mask, std::uint32_t a,
                                                        std::uint32_t b) {
   return (a & mask) | (b & ~mask);
 }
 
-/// x with a magnitude of at most `limit`, which is positive; NaN becomes `limit` or its negative.
+/// x clamped to a magnitude of at most `limit`, which is positive. NaN becomes `limit` or -`limit`.
 DEFERRED_SHADE_HOST_DEVICE inline float clamp(float x, float limit) {
   auto const bits = detail::bits_as<std::uint32_t>(x);
   auto const magnitude = static_cast<std::int32_t>(bits & ~sign_bit);
@@ -63,10 +63,10 @@ DEFERRED_SHADE_HOST_DEVICE inline float power_of_two(std::int32_t n) {
   return detail::bits_as<float>((n + 127) << 23);
 }
 
-/// exp(r) * 2^n for |r| <= 0.35 and |n| <= 160, whatever is left of it where that is too small or
-/// too large. By exp's series, whose first missing term is under a tenth of an ulp. In two steps,
-/// because 2^n alone may be neither a normal number nor finite. A processor may take long for a
-/// product that is too small for a float, so those that become 0 are not computed.
+/// exp(r) * 2^n for |r| <= 0.35 and |n| <= 160: subnormal or 0 if that is too small, infinity if it
+/// is too large. Uses the series of exp; the first term left out is under a tenth of an ulp.
+/// Multiplies in two steps, because 2^n alone may be subnormal or infinite. Processors may be slow
+/// at products that underflow, so those that become 0 are not computed.
 DEFERRED_SHADE_HOST_DEVICE inline float scaled_exp(float r, std::int32_t n) {
   float sum = 1.0F / 5040;
   sum = sum * r + 1.0F / 720;
@@ -82,10 +82,10 @@ DEFERRED_SHADE_HOST_DEVICE inline float scaled_exp(float r, std::int32_t n) {
   return detail::bits_as<float>(detail::bits_as<std::uint32_t>(result) & ~is_0);
 }
 
-/// log2(x), where x has these bits and is finite and positive, to 1e-10: with x = m 2^e and
-/// s = (m - 1) / (m + 1), by the series of ln(m) = 2 artanh(s).
+/// The log2 of the finite, positive number with the bits `x`, to 1e-10. If the number is m 2^e and
+/// s = (m - 1) / (m + 1), this is the series of ln(m) = 2 artanh(s).
 DEFERRED_SHADE_HOST_DEVICE inline double log2_of(std::uint32_t x) {
-  // What is smaller than the smallest normal number is multiplied by 2^23.
+  // Subnormal numbers are multiplied by 2^23.
   std::uint32_t const tiny = detail::mask_of_sign(x - 0x00800000);
   float const scale = detail::bits_as<float>(bits_of_one + (tiny & 23U << 23));
   auto const bits = detail::bits_as<std::int32_t>(detail::bits_as<float>(x) * scale);
@@ -105,7 +105,7 @@ DEFERRED_SHADE_HOST_DEVICE inline double log2_of(std::uint32_t x) {
   return (e - static_cast<std::int32_t>(tiny & 23)) + two_by_ln2 * s * sum;
 }
 
-/// log2(x) for every x. Where `finite` has all bits, it is a finite number for every x.
+/// log2(x) for every x. If `finite` has all bits, the result is finite for every x.
 DEFERRED_SHADE_HOST_DEVICE inline double log2_of_any(float x, std::uint32_t finite) {
   auto const bits = detail::bits_as<std::uint32_t>(x);
   // Finite and positive: bits from 1 to those before infinity's.
@@ -115,7 +115,7 @@ DEFERRED_SHADE_HOST_DEVICE inline double log2_of_any(float x, std::uint32_t fini
   std::uint32_t const others =
       detail::select(detail::mask_of_zero(bits & ~sign_bit), sign_bit | bits_of_infinity,
                      bits | detail::mask_of_sign(bits));
-  // One of both is 0.
+  // One of the two terms is 0.
   return detail::log2_of(detail::select(ordinary, bits, bits_of_one)) +
          static_cast<double>(detail::bits_as<float>(others & ~(ordinary | finite)));
 }
@@ -153,7 +153,7 @@ DEFERRED_SHADE_HOST_DEVICE inline float shifted_sine(float x, std::int32_t quart
 
 }  // namespace detail
 
-/// e to the power of x: within 1.1 ulp.
+/// e to the power of x, within 1.1 ulp.
 DEFERRED_SHADE_HOST_DEVICE inline float exp(float x) {
 #ifdef __CUDA_ARCH__
   return ::expf(x);
@@ -166,7 +166,7 @@ DEFERRED_SHADE_HOST_DEVICE inline float exp(float x) {
 #endif
 }
 
-/// The natural logarithm of x: within 0.51 ulp.
+/// The natural logarithm of x, within 0.51 ulp.
 DEFERRED_SHADE_HOST_DEVICE inline float log(float x) {
 #ifdef __CUDA_ARCH__
   return ::logf(x);
@@ -175,12 +175,13 @@ DEFERRED_SHADE_HOST_DEVICE inline float log(float x) {
 #endif
 }
 
-/// x to the power of y for x >= 0, where -0 is 0, and NaN for x < 0 unless y is 0: within 1.1 ulp.
+/// x to the power of y, within 1.1 ulp, for x >= 0; -0 counts as 0. NaN for x < 0, except if y is
+/// 0.
 DEFERRED_SHADE_HOST_DEVICE inline float pow(float x, float y) {
 #ifdef __CUDA_ARCH__
   return x < 0 && y != 0 ? ::nanf("") : ::powf(x == 0 ? 0.0F : x, y);
 #else
-  // The exponent is 0 if y is 0, whatever x is, and if x is 1, whatever y is.
+  // The exponent is 0 if y is 0 or x is 1, whatever the other one is.
   auto const bits = detail::bits_as<std::uint32_t>(y);
   std::uint32_t const y_is_0 = detail::mask_of_zero(bits & ~detail::sign_bit);
   std::uint32_t const x_is_1 =
@@ -189,15 +190,15 @@ DEFERRED_SHADE_HOST_DEVICE inline float pow(float x, float y) {
       static_cast<double>(detail::bits_as<float>(bits & ~x_is_1)) * detail::log2_of_any(x, y_is_0);
   auto const narrow = static_cast<float>(exponent);
   float const n = std::floor(detail::clamp(narrow, 160) + 0.5F);
-  // Beyond 160, r is anything positive, and the result is infinity; below -160, the result is 0.
+  // Above 160, r is some positive number, and the result is infinity; below -160, the result is 0.
   auto const r = static_cast<float>((exponent - static_cast<double>(n)) * 0.69314718055994530942);
   float const result = detail::scaled_exp(r, static_cast<std::int32_t>(n));
   return detail::nan_or(narrow, result);
 #endif
 }
 
-/// The sine of x: within 1.5 ulp for |x| <= 2^20. Beyond, the error is about |x| * 2^-52, and the
-/// result never outside -1 and 1.
+/// The sine of x, within 1.5 ulp for |x| <= 2^20. Beyond that, the error is about |x| * 2^-52, and
+/// the result stays between -1 and 1.
 DEFERRED_SHADE_HOST_DEVICE inline float sin(float x) {
 #ifdef __CUDA_ARCH__
   return ::sinf(x);
@@ -206,7 +207,7 @@ DEFERRED_SHADE_HOST_DEVICE inline float sin(float x) {
 #endif
 }
 
-/// The cosine of x, as `sin`.
+/// The cosine of x, with the errors of `sin`.
 DEFERRED_SHADE_HOST_DEVICE inline float cos(float x) {
 #ifdef __CUDA_ARCH__
   return ::cosf(x);

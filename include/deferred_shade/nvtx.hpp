@@ -8,14 +8,13 @@
 
 namespace deferred_shade {
 
-/// An observer that makes a range of NVTX of every phase, in a domain of the library's own, for
-/// Nsight Systems and other tools: "group", "dispatch", "shader 3". Works on CPUs as well. Needs
-/// NVTX's headers, which come with the CUDA toolkit, and no CUDA compiler. deferred_shade.hpp does
-/// not include it.
+/// An observer that marks every phase with an NVTX range, for Nsight Systems and other tools:
+/// "group", "dispatch", "shader 3". Works on CPUs as well. Requires the NVTX headers of the CUDA
+/// toolkit, but no CUDA compiler. Not included by deferred_shade.hpp.
 ///
 ///     deferred_shade::observed seen{scratch, deferred_shade::nvtx_ranges{}};
 struct nvtx_ranges {
-  /// The library's own, by the name under which tools show it.
+  /// The domain of the ranges: tools show it by this name.
   struct domain {
     static constexpr char const* name = "deferred_shade";
   };

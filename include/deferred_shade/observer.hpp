@@ -11,7 +11,7 @@
 namespace deferred_shade {
 namespace detail {
 
-// The tuning of a workspace that carries one: see `tuned`.
+// The tuning that a workspace carries (see `tuned`), or void.
 template <class Workspace, class = void>
 struct find_tuning {
   using type = void;
@@ -21,7 +21,7 @@ struct find_tuning<Workspace, std::void_t<typename Workspace::tuning_type>> {
   using type = typename Workspace::tuning_type;
 };
 
-/// What observed, tuned and others have in common: they are the workspace, except in one thing.
+/// The base of observed, tuned and others: a workspace that passes everything on to another one.
 template <class Workspace>
 struct workspace_wrapper {
   using tuning_type = typename find_tuning<Workspace>::type;
@@ -41,16 +41,18 @@ struct workspace_wrapper {
 
 }  // namespace detail
 
-/// A workspace whose observer is told what a schedule does, for a profiler or a timeline. Pass it
-/// in place of the workspace. A workspace that is not observed costs nothing.
+/// A workspace that tells an observer what a schedule does, for a profiler or a timeline. Pass it
+/// in place of the workspace. An unobserved workspace costs nothing.
 ///
-/// `Observer` is a function object that is cheap to copy, called with each phase. What it returns,
-/// any value if it needs none, lives as long as the phase and ends with it, by an exception as
-/// well, on the thread that called shade(). `group` is told by schedules that order a batch before
-/// they run it, `dispatch` by all, and in it `shader` by those that have a launch for each shader.
-/// On CUDA, what lies between is the submission of work: nothing waits, and what the observer
-/// itself puts on the stream, an event say, stands before and behind the work of the phase. Kernels
-/// do not overlap across it.
+/// `Observer` is a function object that is cheap to copy. It is called as each phase begins, on the
+/// thread that called shade(). It returns an object, which is destroyed when the phase ends, by an
+/// exception as well; any value does if it needs none. All schedules have a phase `dispatch`. Those
+/// that order a batch first have a phase `group` before it. Those with a launch for each shader
+/// have phases `shader` within it.
+///
+/// On CUDA, a phase is the submission of work, and nothing waits for the work. An event that the
+/// observer records on the stream stands before or behind the work of the phase. Kernels do not
+/// overlap across it.
 ///
 ///     auto const ranges = [](ds::phase const& p) { return nvtx3::scoped_range{p.name}; };
 ///     deferred_shade::observed seen{scratch, ranges};
@@ -62,7 +64,7 @@ struct observed : detail::workspace_wrapper<Workspace> {
   observed(Workspace& scratch, Observer tells)
       : detail::workspace_wrapper<Workspace>(scratch), observer(std::move(tells)) {}
 
-  /// Tells the observer; the phase lasts as long as what is returned.
+  /// Tells the observer. The phase lasts as long as the object that is returned.
   auto begin_phase(phase const& p) const {
     constexpr bool is_called = std::is_invocable_v<Observer const&, phase const&>;
     static_assert(is_called,

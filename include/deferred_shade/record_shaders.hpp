@@ -35,22 +35,22 @@ DEFERRED_SHADE_HOST_DEVICE void store(Sink const& sink, request_index i, Result 
 
 }  // namespace detail
 
-/// A pure function from a request to its result, `Result operator()(Request const&) const`,
-/// together with where requests come from and where results go.
+/// A pure function from a request to its result, `Result operator()(Request const&) const`, with a
+/// source of requests and a sink for results.
 ///
-/// It is an index shader, so it goes wherever one goes; and because its memory traffic is apart
-/// from its arithmetic, a schedule is free to load a group of requests, run them side by side and
-/// store the results. `Source` is called as `source(i)` or read as `source[i]`; `Sink` is called as
-/// `sink(i, result)` or written as `sink[i] = result`. A pointer does for both.
+/// It works wherever an index shader works. Because its loads and stores are separate from its
+/// arithmetic, a schedule can load several requests, run them side by side and store their results.
+/// The source is called as `source(i)` or read as `source[i]`. The sink is called as
+/// `sink(i, result)` or written as `sink[i] = result`. Both may be pointers.
 template <class Source, class Function, class Sink>
 struct record_shader {
   Source source;
   Function function;
   Sink sink;
 
-  /// What the function is given, by value.
+  /// The type of a request, without reference or const.
   using request_type = typename detail::record_types<Source, Function, Sink>::request;
-  /// What the function returns.
+  /// The type of a result, without reference or const.
   using result_type = typename detail::record_types<Source, Function, Sink>::result;
 
   DEFERRED_SHADE_EXEC_CHECK_DISABLE
@@ -62,12 +62,12 @@ struct record_shader {
   }
 };
 
-/// A table of record shaders that share one source and one sink, both of which are copied with
-/// every shader: pointers, iterators or functions, not containers.
+/// Makes a table of record shaders that share one source and one sink. Both are copied with every
+/// shader: pass pointers, iterators or functions, not containers.
 ///
 ///     struct matte { rgb operator()(hit const& h) const; };
-///     auto shaders = deferred_shade::record_shaders(hits.data(), radiance.data(), matte{},
-///     glass{});
+///     auto shaders = deferred_shade::record_shaders(hits.data(), radiance.data(),
+///                                                   matte{}, glass{});
 template <class Source, class Sink, class... Functions>
 auto record_shaders(Source source, Sink sink, Functions... functions) {
   return shader_table{

@@ -21,11 +21,11 @@
 
 namespace deferred_shade {
 
-/// One stream compaction per shader, then `Dispatch`, implicit_serialization or
+/// Groups by one stream compaction per shader, then runs `Dispatch`: implicit_serialization or
 /// explicit_serialization. Schedules 3 and 4 of Hoberock et al., HPG 2009.
 ///
-/// For a table of a few shaders; sort_then_dispatch and bucket_then_dispatch do the same work
-/// whatever the number of shaders.
+/// For tables of a few shaders: its work grows with their number. That of sort_then_dispatch and
+/// bucket_then_dispatch does not.
 template <class Dispatch = explicit_serialization>
 struct compact_then_dispatch {
   /// The bytes of workspace that batches of up to `n` requests over up to `shaders` shaders take.
@@ -44,7 +44,7 @@ struct compact_then_dispatch {
   }
 };
 
-/// A radix sort of (id, index) pairs, then `Dispatch`, implicit_serialization or
+/// Groups by a radix sort of (id, index) pairs, then runs `Dispatch`: implicit_serialization or
 /// explicit_serialization. Schedules 5 and 6 of Hoberock et al., HPG 2009.
 template <class Dispatch = explicit_serialization>
 struct sort_then_dispatch {
@@ -62,11 +62,11 @@ struct sort_then_dispatch {
   }
 };
 
-/// One stable counting pass straight to a permutation and the offsets of its segments, then
-/// `Dispatch`, implicit_serialization or explicit_serialization.
+/// Groups by one stable counting sort, then runs `Dispatch`: implicit_serialization or
+/// explicit_serialization.
 ///
-/// What sort_then_dispatch does, without keys that move: of the schedules that group a whole batch
-/// it reads and writes least.
+/// It does what sort_then_dispatch does, but moves no keys. Of the schedules that group a whole
+/// batch, it reads and writes the least.
 template <class Dispatch = explicit_serialization>
 struct bucket_then_dispatch {
   /// The bytes of workspace that batches of up to `n` requests over up to `shaders` shaders take.
@@ -83,23 +83,22 @@ struct bucket_then_dispatch {
   }
 };
 
-/// Sorts and shades tile by tile: a tile is as many requests as one core's cache or one
-/// multiprocessor's shared memory holds, and one worker or thread block owns it. One launch, and no
+/// Sorts and shades tile by tile, in one launch. One worker or thread block owns a tile: as many
+/// requests as the cache of a core or the shared memory of a multiprocessor holds. It uses no
 /// memory but the worker's own.
 ///
-/// `Sort` is `counting`, the default: a stable counting sort inside the tile, then shader by shader
-/// over its requests. Or it is `bitonic`: a bitonic sort inside the tile, then the switch, schedule
-/// 7 of Hoberock et al., HPG 2009.
+/// `Sort` is `counting` or `bitonic`. `counting`, the default, sorts the tile by a stable counting
+/// sort and runs it shader by shader. `bitonic` sorts it by a bitonic sort and runs it by a switch:
+/// schedule 7 of Hoberock et al., HPG 2009.
 ///
-/// On CPUs, record shaders run in vectors where the compiler makes them (docs/records.md, "Vectors
-/// on a CPU"), and a tile whose neighbours mostly name the same shader is run as it lies.
+/// On a CPU, record shaders run in vectors if the compiler vectorises them (docs/records.md,
+/// "Vectors on a CPU"). A tile with long runs of one shader is not sorted.
 ///
-/// On CUDA, a table of record shaders with sources of one type and sinks of one type, whose
-/// requests and results are trivially copyable and small enough, passes through shared memory: the
-/// requests of a tile are loaded in the order in which they lie, shaded in the order of their
-/// shaders, and their results stored in the order in which they lie. A table of up to 8 index
-/// shaders is taken for one of short ones: tiles are small, and run by a switch over the sorted
-/// requests.
+/// On CUDA, record shaders pass through shared memory if the table has at most 16 of them, with one
+/// type each of source, sink and result, and if records are trivially copyable and have at most 128
+/// bytes (docs/limits.md, "Records"). A tile is loaded in memory order, shaded in shader order, and
+/// stored in memory order. In a table of up to 8 index shaders, these are assumed to be short:
+/// tiles are small, and a switch runs over the sorted requests.
 template <class Sort = counting>
 struct local_sort_then_dispatch {
   /// It takes none of a workspace.
@@ -116,19 +115,18 @@ struct local_sort_then_dispatch {
   }
 };
 
-/// Sorts each window of the batch by a stable counting sort, and runs it shader by shader. A window
-/// is as many neighbouring requests as a second-level cache holds with what they load and store. On
-/// a CPU that is the cache of a core, and the schedule the same as local_sort_then_dispatch; on a
-/// GPU it is the one that all multiprocessors share.
+/// Sorts each window of the batch by a stable counting sort and runs it shader by shader. A window
+/// is as many neighbouring requests as fit in a second-level cache with what they load and store.
+/// On a GPU, all multiprocessors share that cache, and a window has 128 Ki requests. On a CPU, each
+/// core has its own, and this schedule is local_sort_then_dispatch.
 ///
-/// There it stands between local_sort_then_dispatch and bucket_then_dispatch. Tiles have few
-/// requests of each shader where shaders are many, and code that changes all the time falls out of
-/// instruction caches where shaders are long. Buckets of a whole batch bring requests of one shader
-/// together that lie far apart, and of what is loaded for one request a neighbour's share goes to
-/// waste.
+/// On a GPU, it stands between local_sort_then_dispatch and bucket_then_dispatch. If a table has
+/// many shaders, a tile has few requests of each. If shaders are long, each tile loads all their
+/// code again, and instruction caches overflow. Buckets of a whole batch bring requests together
+/// that lie far apart in memory: of each sector, most bytes are loaded for nothing.
 ///
-/// On CUDA, three launches for up to 32 shaders, of which the last one is the switch; for larger
-/// tables, what bucket_then_dispatch<implicit_serialization> does.
+/// On CUDA, a table of up to 32 shaders takes three launches; the last one is the switch. Larger
+/// tables run as bucket_then_dispatch<implicit_serialization>.
 struct window_sort_then_dispatch {
   /// The bytes of workspace that batches of up to `n` requests over up to `shaders` shaders take.
   template <class Policy>
@@ -148,8 +146,8 @@ struct window_sort_then_dispatch {
   }
 };
 
-/// Calls `f(name, schedule)` with every schedule of the library: a `char const*`, and an object of
-/// its type. For command lines, benchmarks and tests, which then know them all by the same names.
+/// Calls `f(name, schedule)` for every schedule of the library, with a `char const*` and an object
+/// of its type. Command lines, benchmarks and tests then share the names.
 template <class Function>
 constexpr void for_each_schedule(Function&& f) {
   f("implicit", implicit_serialization{});
@@ -167,7 +165,7 @@ constexpr void for_each_schedule(Function&& f) {
 
 namespace detail {
 
-/// All of them, for a workspace that serves any.
+/// All of them, for a workspace that is large enough for any.
 struct every_schedule {
   template <class Machine>
   static constexpr std::size_t workspace_bytes(Machine const& where, std::size_t n,

@@ -19,7 +19,7 @@
 namespace deferred_shade {
 namespace detail {
 
-// What a schedule is given as the number of requests: the number itself where the host sees it.
+// The number of requests that a schedule is given: the number itself if the host sees it.
 template <class System, class Count>
 auto batch_size(System, Count n) {
   if constexpr (is_device_count<Count> && std::is_same_v<System, cuda_system>) {
@@ -32,33 +32,35 @@ auto batch_size(System, Count n) {
 
 }  // namespace detail
 
-/// Runs every request through its shader, exactly once, in the order that `schedule` makes.
+/// Runs the shader of every request exactly once, in the order that `schedule` makes.
 ///
 /// - `exec`: a Thrust execution policy. With `thrust::cpp::par`, `thrust::omp::par` and
-///   `thrust::tbb::par`, returns when all shaders have run. With a policy for CUDA,
-///   `thrust::cuda::par` or `thrust::cuda::par_nosync` on any stream, everything goes to that
-///   stream and nothing waits for it, so that the call can be captured into a CUDA graph once
-///   `scratch` is large enough.
-/// - `schedule`: one of this library, or any function object that is called with the arguments
-///   below, `n` as a request_index. On CUDA a device_count stays one, and a table of up to 32
-///   places from which shader_table::only has taken some comes without gaps, with ids that fit it.
-/// - `n`: the number of requests, an integer or a device_count; for the maximum of one, whatever
-///   the schedule, `scratch` is reserved.
-/// - `ids`: a random-access iterator over the shader id of each request, an integer or enumeration
-///   of 8 to 32 bits, wide enough for the id of the last shader. It is read more than once. An id
-///   that the table does not have leaves its request alone.
-/// - `scratch`: memory to work in, a workspace or an `observed` one, one per concurrent call.
-///   Nothing is allocated once it has seen, or reserved for, as many requests and shaders.
+///   `thrust::tbb::par`, the call returns when all shaders have run. With `thrust::cuda::par` or
+///   `thrust::cuda::par_nosync`, on any stream, the call is asynchronous: all work goes to that
+///   stream, and nothing waits for it. The call can be captured into a CUDA graph if `scratch` is
+///   large enough.
+/// - `schedule`: one of this library, or any function object that can be called with `exec` and the
+///   arguments below. `n` becomes a request_index; on CUDA, a device_count stays one. On CUDA, a
+///   table of up to 32 shaders that shader_table::only has made arrives compacted: without gaps,
+///   and with ids to match.
+/// - `n`: the number of requests, an integer or a device_count. `scratch` is reserved for the
+///   maximum of a device_count, whatever the schedule.
+/// - `ids`: a random-access iterator over the shader id of each request. An id is an integer or
+///   enumeration of 8 to 32 bits, wide enough for the last shader's. Ids are read more than once.
+///   Requests whose id is not in the table are skipped.
+/// - `scratch`: memory to work in: a workspace, or an `observed` or `tuned` one. Concurrent calls
+///   need one each. Nothing is allocated once it has seen, or reserved for, as many requests and
+///   shaders.
 ///
-/// Within one shader, requests are started in the order of their indices wherever one worker runs
-/// them. The library does no arithmetic on the renderer's data: what a shader writes for its own
-/// request does not depend on the schedule, the policy, or the number of workers, as long as the
-/// compiler makes the same arithmetic of the shader everywhere (docs/guide.md, "What is promised").
+/// A worker starts the requests of one shader in the order of their indices. The library does no
+/// arithmetic on the renderer's data: what a shader writes for its own request does not depend on
+/// the schedule, the policy or the number of workers, if the compiler makes the same arithmetic of
+/// the shader everywhere (docs/guide.md, "What is promised").
 ///
-/// Throws std::invalid_argument where `n` is negative or a pointer is null, std::length_error where
-/// `n` exceeds `max_requests` or, on a CPU, a device_count its maximum, and what the workspace's
-/// allocator throws. No shader has run then, and `scratch` stays usable. Throws
-/// cuda_error where CUDA refuses a launch.
+/// Throws std::invalid_argument if `n` is negative or a pointer is null; std::length_error if `n`
+/// exceeds `max_requests` or, on a CPU, a device_count exceeds its maximum; and what the
+/// workspace's allocator throws. No shader has run then, and `scratch` stays usable. Throws
+/// cuda_error if CUDA refuses a launch.
 template <class Policy, class Schedule, class Count, class Ids, class... Shaders, class Workspace>
 void shade(Policy const& exec, Schedule const& schedule, Count n, Ids ids,
            shader_table<Shaders...> const& shaders, Workspace& scratch) {
@@ -67,7 +69,7 @@ void shade(Policy const& exec, Schedule const& schedule, Count n, Ids ids,
   if constexpr (required::met) {
     using system = detail::system_of<Policy>;
     auto const count = detail::batch_size(system{}, n);
-    // Sized by the maximum, so that no later count allocates.
+    // Sized by the maximum: no later count allocates.
     if constexpr (detail::is_device_count<Count>) scratch.reserve(n.maximum, sizeof...(Shaders));
     if (detail::maximum_of(count) == 0) return;
     if constexpr (std::is_pointer_v<Ids>) {

@@ -11,15 +11,16 @@
 
 namespace deferred_shade {
 
-/// Shaders of a table, by their ids.
+/// A set of shaders, by their ids: see `variants`.
 template <shader_id... Ids>
 struct ids {};
 
-/// The shaders that requests can name: the id of a shader is its position.
+/// The shaders that requests can name. The id of a shader is its position.
 ///
-/// A shader is a callable on a request's index, `void operator()(request_index) const`, that is
-/// cheap to copy: it holds views of the renderer's memory, not the memory. It runs concurrently
-/// with other requests, must not throw, and may write whatever belongs to its own request.
+/// A shader is a function object on the index of a request, `void operator()(request_index) const`.
+/// It must be cheap to copy: it holds views of the renderer's memory, not the memory. It runs
+/// concurrently with other requests, must not throw, and writes only what belongs to its own
+/// request.
 ///
 ///     deferred_shade::shader_table shaders{matte{film, hits}, glass{film, hits}};
 template <class... Shaders>
@@ -33,15 +34,15 @@ class shader_table : public detail::shader_list<Shaders...> {
   using list::first_id;  ///< first_id(): the lowest id that the table has a shader for
   using list::for_each;  ///< for_each(f): calls `f(id, shader)` for every shader in order
   using list::get;       ///< get<Id>(): the shader at position `Id`
-  using list::has;       ///< has<Id>: whether there is one, or `only` has left it out
+  using list::has;       ///< has<Id>: whether there is one: false if `only` has left it out
   using list::run;       ///< run(id, i): runs shader `id` on request `i`, if there is one
   using list::size;      ///< size(): the number of shaders
   using list::visit;     ///< visit(id, f): calls `f(shader)` for shader `id`, if there is one
 
-  /// The same table, with the same ids, without the shaders that `Ids` does not list. Requests that
-  /// name one of those are left alone, as if the table had no such id, and no code is made for
-  /// them: for a scene whose materials are known not to need them, a switch over fewer shaders that
-  /// takes fewer registers. See specialized.hpp for a choice at run time.
+  /// The same table, with the same ids, but only with the shaders of `Ids`. Requests of the others
+  /// are skipped, as if the table had no such id, and no code is generated for those shaders. Use
+  /// it if a scene is known not to need them: the switch has fewer cases and takes fewer registers.
+  /// See specialized.hpp for a choice at run time.
   template <shader_id... Ids>
   constexpr auto only() const {
     static_assert(sizeof...(Ids) > 0, "deferred_shade: only must be given an id");
@@ -50,16 +51,17 @@ class shader_table : public detail::shader_list<Shaders...> {
     return only_among<Ids...>(std::make_integer_sequence<shader_id, size()>());
   }
 
-  /// The same table for batches in which the shaders that are not `occurring` do not occur: what
-  /// launches one shader after another does not launch them, and requests that name them may be
-  /// left alone. For a scene that is known to have no such material. Costs no code, unlike `only`.
+  /// The same table, for batches in which only the `occurring` shaders occur. Schedules with a
+  /// launch or a compaction for each shader leave the others out, and requests that name them may
+  /// be skipped. Use it if a scene is known to have no such material. Unlike `only`, it generates
+  /// no code.
   shader_table expecting(std::bitset<sizeof...(Shaders)> const& occurring) const {
     shader_table result = *this;
     result.absent_ = ~occurring;
     return result;
   }
 
-  /// The ids of shaders that may occur: all but those that `only` and `expecting` leave out.
+  /// The shaders that may occur: all except those that `only` and `expecting` leave out.
   std::bitset<sizeof...(Shaders)> expected() const {
     std::bitset<sizeof...(Shaders)> result;
     this->for_each([&](auto id, auto const&) { result[id] = !absent_[id]; });

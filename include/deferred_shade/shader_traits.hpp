@@ -6,8 +6,8 @@
 namespace deferred_shade {
 namespace detail {
 
-// A data member of these names is the shader's own business: only a static constant, or an
-// enumerator, is an answer.
+// Only a static constant or an enumerator of these names counts. A data member is the shader's own
+// business.
 template <class Shader, class = void>
 inline constexpr bool block_size_is_member = false;
 template <class Shader>
@@ -52,22 +52,22 @@ constexpr bool runs_in_vectors_of() {
 
 }  // namespace detail
 
-/// What a shader says of itself by static constants, and what holds where it says nothing.
+/// What a shader declares by static constants, and the defaults if it declares nothing.
 ///
 ///     struct marble { static constexpr int block_size = 128; /* ... */ };
 template <class Shader>
 struct declared_shader_traits {
-  /// CUDA: the threads of a block in a launch of this shader alone. 0: as many, up to 256, as fill
-  /// the device.
+  /// CUDA: the threads of a block in a launch of this shader alone. 0, the default: the number up
+  /// to 256 that maximises occupancy.
   static constexpr int block_size = detail::block_size_of<Shader>();
-  /// CPU: whether the records of this function are packed, and run in a loop that the compiler may
-  /// turn into vectors (docs/records.md, "Vectors on a CPU").
+  /// CPU: whether the records of this function are packed, and run in a loop that the compiler can
+  /// vectorise (docs/records.md, "Vectors on a CPU"). The default is true.
   static constexpr bool runs_in_vectors = detail::runs_in_vectors_of<Shader>();
 };
 
 /// What schedules ask about a shader, or about the function of a record shader. Specialise it for a
-/// type that cannot have these members, a lambda for example. Derive from declared_shader_traits
-/// for what stays as it is:
+/// type that cannot have these members, a lambda for example. Derive from declared_shader_traits to
+/// keep the other defaults:
 ///
 ///     inline auto marble = [](hit const& h) { /* ... */ };
 ///     template <>

@@ -39,18 +39,18 @@ struct variant_traits<ids<Ids...>> {
 
 }  // namespace detail
 
-/// Sets of shaders, each an `ids<...>`, that a renderer wants code for: of a table of dozens, those
-/// that its scenes typically need. Every one is compiled, so that they are declared, not derived.
+/// Sets of shaders, each an `ids<...>`, that a renderer wants code for: of a table of dozens, the
+/// sets that its scenes typically need. Each set is compiled, so the renderer has to declare them.
 template <class... Variants>
 struct variants {
   static_assert(sizeof...(Variants) > 0,
                 "deferred_shade: variants must have at least one ids<...>");
 
-  /// How many there are; and the number of the one that stands for the whole table.
+  /// The number of variants. As the number of one, it stands for the whole table.
   static constexpr std::size_t count = sizeof...(Variants);
 
   /// The number of the smallest variant that has all shaders of `occurring`, the first among
-  /// equals; `count` where none has.
+  /// equals; `count` if none has.
   template <std::size_t Shaders>
   static std::size_t covering(std::bitset<Shaders> const& occurring) {
     std::size_t best = count, best_size = Shaders + 1, number = 0;
@@ -70,8 +70,8 @@ struct variants {
 
 namespace detail {
 
-/// Calls `run(table)` with what variant number `chosen` leaves of a table, or with the whole table
-/// where there is none of that number.
+/// Calls `run(table)` with the shaders of variant number `chosen`, or with the whole table if there
+/// is no such variant.
 template <class... Variants, class Table, class Function>
 void with_variant(variants<Variants...>, std::size_t chosen, Table const& shaders,
                   Function const& run) {
@@ -83,17 +83,17 @@ void with_variant(variants<Variants...>, std::size_t chosen, Table const& shader
 
 }  // namespace detail
 
-/// A schedule for scenes that do not need all shaders of a table: runs `schedule` over the smallest
-/// of some variants that has all shaders that can occur, and over the whole table where none has;
-/// what launches one shader after another launches those that can occur.
+/// A schedule for scenes that do not need all shaders of a table. It runs `schedule` over the
+/// smallest variant that has all shaders that can occur, or over the whole table if none has. A
+/// launch for each shader is made only for those that can occur.
 ///
 ///     using some = deferred_shade::variants<deferred_shade::ids<0, 1>,
 ///                                           deferred_shade::ids<0, 1, 4>>;
 ///     deferred_shade::specialized const schedule{
 ///         deferred_shade::window_sort_then_dispatch{}, some{}, scene.shaders()};
 ///
-/// `occurring`, with a bit for each shader of the table, is the renderer's to know, from the
-/// materials of its scene, and to keep true: a request that names another shader may be left alone.
+/// `occurring` has a bit for each shader of the table. The renderer knows it from the materials of
+/// its scene, and must keep it true: a request that names another shader may be skipped.
 /// count_occurrences finds it for one batch.
 template <class Schedule, class Variants, std::size_t Shaders>
 struct specialized {
@@ -101,7 +101,7 @@ struct specialized {
   Variants sets;                   ///< a variants<...>
   std::bitset<Shaders> occurring;  ///< the shaders that can occur
 
-  /// What the schedule takes.
+  /// The bytes of workspace that `schedule` takes.
   template <class Policy>
   constexpr std::size_t workspace_bytes(Policy const& exec, std::size_t n,
                                         std::size_t shaders) const {

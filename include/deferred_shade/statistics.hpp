@@ -57,9 +57,10 @@ auto on_host(cuda_system, std::string const& caller, Policy const& exec, Count n
 
 }  // namespace detail
 
-/// What a group of lanes pays for divergence: `costs[k]` is the cost of shader k, in any unit, and
-/// `width` is the number of consecutive requests that share a program counter. The cost of a shader
-/// that occurs is finite and not negative. That of any other shader is not looked at.
+/// What a group of lanes pays for divergence. `costs[k]` is the cost of shader k, in any unit, for
+/// `shaders` shaders; the host reads it. `width` is the number of consecutive requests that share a
+/// program counter. The cost of a shader that occurs is finite and not negative. Other costs are
+/// not read.
 struct efficiency_model {
   double const* costs;
   shader_id shaders;
@@ -73,8 +74,8 @@ struct occurrences {
   /// groups[k]: the groups in which shader k occurs.
   std::vector<std::uint64_t> groups;
 
-  /// The shaders that occur, of the table of so many that was counted: for specialized and
-  /// shader_table::expecting. Throws std::invalid_argument where another number was.
+  /// The shaders that occur, for specialized and shader_table::expecting. Throws
+  /// std::invalid_argument if the table that was counted did not have `Shaders` shaders.
   template <shader_id Shaders>
   std::bitset<Shaders> occurring() const {
     if (groups.size() != Shaders) {
@@ -92,8 +93,7 @@ namespace detail {
 template <class Policy, class Ids>
 occurrences occurrences_of(Policy const& exec, std::size_t size, Ids const& ids, shader_id shaders,
                            std::uint32_t width) {
-  // Every block has counters of its own and whole groups, so that the sums are exact and do not
-  // depend on who owns which block.
+  // Every block has its own counters and whole groups. So the sums are exact, whoever owns a block.
   block_partition const blocks(size, shaders, width);
   std::size_t const columns = std::size_t{shaders} + 1;
   std::vector<std::uint64_t> requests(blocks.count() * columns), groups = requests;
@@ -117,7 +117,7 @@ occurrences occurrences_of(Policy const& exec, std::size_t size, Ids const& ids,
   return total;
 }
 
-/// Refuses a cost of a shader that occurs, if it is none.
+/// Throws if the cost of a shader that occurs is negative, infinite or NaN.
 inline void check_costs(std::string const& caller, occurrences const& count,
                         efficiency_model const& model) {
   for (shader_id k = 0; k < model.shaders; ++k) {
@@ -165,12 +165,13 @@ void efficiency_of_groups(Policy const& exec, std::size_t size, Ids const& ids,
 
 }  // namespace detail
 
-/// Counts shaders in `n` requests, in groups of `width`; the last group may be incomplete.
+/// Counts the shaders of `n` requests, in groups of `width` requests; the last group may be
+/// incomplete.
 ///
-/// For reports, not for every batch: allocates, and returns to the host; on CUDA, waits for the
-/// stream and copies the ids to the host, which counts them. Throws std::invalid_argument where
-/// `width` is 0, `n` negative, or `ids` null while `n` is not 0, std::length_error where `n`
-/// exceeds `max_requests`, and std::bad_alloc.
+/// For reports, not for every batch: it allocates. On CUDA it waits for the stream and copies the
+/// ids to the host, which counts them. Throws std::invalid_argument if `width` is 0, `n` negative,
+/// or `ids` null while `n` is not 0; std::length_error if `n` exceeds `max_requests`;
+/// std::bad_alloc; and cuda_error if CUDA refuses.
 template <class Policy, class Count, class Ids>
 occurrences count_occurrences(Policy const& exec, Count n, Ids ids, shader_id shaders,
                               std::uint32_t width = 32) {
@@ -186,17 +187,17 @@ occurrences count_occurrences(Policy const& exec, Count n, Ids ids, shader_id sh
 }
 
 /// The heterogeneous efficiency of `n` requests in the order in which lanes take them: the work
-/// that shaders ask for over the work that the lanes are held for. This is
+/// that shaders ask for, divided by the work for which lanes are held. This is
 ///
 ///     sum(n_i |A_i|) / (width * sum(min(n_i, 1) |A_i|)),
 ///
-/// summed over all groups of `width` requests and all shaders i, where n_i counts the requests of
-/// shader i in the group and |A_i| is its cost (Hoberock et al., HPG 2009, section 5). 1 is a batch
-/// without divergence; a batch in which no shader runs, or none that costs anything, wastes nothing
-/// and has 1, too. Lanes whose id names no shader are idle.
+/// summed over all groups of `width` requests and all shaders i. n_i is the number of requests of
+/// shader i in the group, and |A_i| is its cost (Hoberock et al., HPG 2009, section 5). 1 means no
+/// divergence; it is also the result if no shader runs, or if all that run cost 0. Lanes whose id
+/// names no shader count as idle.
 ///
-/// For reports: allocates, and throws what count_occurrences throws. Throws std::invalid_argument
-/// where a shader occurs whose cost is negative, infinite or NaN, or where `costs` is null.
+/// For reports: it allocates. Throws what count_occurrences throws, and std::invalid_argument if
+/// the cost of a shader that occurs is negative, infinite or NaN, or if `costs` is null then.
 template <class Policy, class Count, class Ids>
 double heterogeneous_efficiency(Policy const& exec, Count n, Ids ids,
                                 efficiency_model const& model) {
@@ -216,11 +217,11 @@ double heterogeneous_efficiency(Policy const& exec, Count n, Ids ids,
   return detail::finite_work(model.width, sum).efficiency(model.width, 1.0);
 }
 
-/// The heterogeneous efficiency of every group on its own: writes ceil(n / width) values to
-/// `efficiency`, NaN for a group in which no shader runs, or none that costs anything.
+/// Writes the heterogeneous efficiency of every group to `efficiency`, an array of the host: ceil(n
+/// / width) values, NaN for a group in which no shader runs or all that run cost 0.
 ///
-/// Allocates, and throws what heterogeneous_efficiency throws, before it writes anything; and
-/// std::invalid_argument where `efficiency` is null.
+/// Allocates. Throws what heterogeneous_efficiency throws, and std::invalid_argument if
+/// `efficiency` is null while `n` is not 0. Nothing is written then.
 template <class Policy, class Count, class Ids>
 void group_efficiency(Policy const& exec, Count n, Ids ids, efficiency_model const& model,
                       float* efficiency) {

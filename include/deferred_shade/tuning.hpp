@@ -7,17 +7,18 @@
 
 namespace deferred_shade {
 
-/// Sizes and thresholds of all schedules, and which algorithm a table gets: what was measured to be
-/// best on the machines that the project knows. detail/cpu/tuning.hpp and detail/cuda/tuning.hpp
+/// The sizes and thresholds of all schedules, and the algorithm that a table gets. These were the
+/// best on the machines that the project measured. detail/cpu/tuning.hpp and detail/cuda/tuning.hpp
 /// say what decided each.
 struct tuning {
   using cpu = cpu_tuning;
   using cuda = cuda_tuning;
 };
 
-/// A workspace that also says how schedules are tuned. It goes where the workspace would. A
-/// renderer's tuning derives from the library's and replaces what it knows better for its shaders
-/// or its machine. No choice changes what a shader is given or in which order.
+/// A workspace that carries a tuning for schedules. Pass it in place of the workspace. A renderer's
+/// tuning derives from the library's and replaces what it knows better for its shaders or its
+/// machine. No choice changes a result: every request still runs once, and a worker starts the
+/// requests of one shader in the order of their indices.
 ///
 ///     struct long_shaders : ds::tuning {
 ///       struct cuda : ds::tuning::cuda {

@@ -13,7 +13,7 @@
 
 namespace deferred_shade {
 
-/// The position of a request in its batch, 0 to n - 1: what a shader is called with.
+/// The position of a request in its batch, 0 to n - 1. A shader is called with it.
 using request_index = std::uint32_t;
 
 /// The position of a shader in its table. An id at or above the size of the table names no shader.
@@ -22,10 +22,10 @@ using shader_id = std::uint32_t;
 /// The most requests that one batch can hold.
 inline constexpr std::size_t max_requests = (std::numeric_limits<request_index>::max)();
 
-/// A number of requests that lies in memory where `shade` runs: read when the batch runs, not when
-/// it is submitted. `maximum` is what the renderer guarantees; work space is sized by it. On CUDA,
-/// where the host cannot see the number, one that is negative counts as 0, and one above `maximum`
-/// as `maximum`.
+/// A number of requests in memory where `shade` runs. It is read when the batch runs, not when it
+/// is submitted. The renderer guarantees that it is at most `maximum`, by which the workspace is
+/// sized. On CUDA the host cannot see the number: a negative one counts as 0, and one above
+/// `maximum` as `maximum`.
 template <class Integer>
 struct device_count {
   static_assert(std::is_integral_v<Integer> && !std::is_same_v<std::remove_cv_t<Integer>, bool>,
@@ -39,27 +39,27 @@ device_count(Integer*, std::size_t) -> device_count<std::remove_const_t<Integer>
 
 /// The requests of a batch, grouped by shader: a view of memory that a workspace owns.
 ///
-/// Both arrays lie where the execution policy runs: a host function may read them on cpp, omp and
-/// tbb, and no one before the work on the stream is done on CUDA. `permutation[offsets[k]]` to
+/// Both arrays lie where the execution policy runs. With cpp, omp and tbb, the host may read them.
+/// With CUDA, they can be read when the work on the stream is done. `permutation[offsets[k]]` to
 /// `permutation[offsets[k + 1] - 1]` are the requests of shader k in the order in which they came;
-/// `offsets` holds one entry more than the table has shaders. What `permutation` holds from
-/// `offsets[shaders]` on is unspecified. `maximum` is what the host knows of the number of
-/// requests: there are no more.
+/// `offsets` holds one entry more than the table has shaders. The entries of `permutation` from
+/// `offsets[shaders]` on are unspecified. `maximum` is an upper bound of the number of requests,
+/// for the host.
 struct grouping {
   request_index const* permutation;
   request_index const* offsets;
   std::size_t maximum = max_requests;
 };
 
-/// A part of what a schedule does, as an observer is told of it: see `observed`. A schedule outside
-/// the library may have parts by other names.
+/// A part of what a schedule does, as an observer is told of it: see `observed`. A renderer's own
+/// schedule may have phases by other names.
 struct phase {
   char const* name;                       ///< "group", "dispatch" or, within it, "shader"
-  std::optional<shader_id> shader{};      ///< where the name is "shader": its id
-  std::optional<std::size_t> requests{};  ///< that it runs on, where the host knows how many
+  std::optional<shader_id> shader{};      ///< its id, if the name is "shader"
+  std::optional<std::size_t> requests{};  ///< their number, if the host knows it
 };
 
-/// The shader that `ids` names for request `i`, or `shaders` where it names none.
+/// The shader that `ids` names for request `i`, or `shaders` if it names none.
 ///
 /// `Ids` is a random-access iterator over an integer or an enumeration of 8 to 32 bits. A negative
 /// id names no shader.
@@ -81,7 +81,7 @@ namespace detail {
 
 using deferred_shade::shader_of;  // for calls that find no function of a renderer's
 
-/// What the host knows of the number of requests: its maximum.
+/// The upper bound of the number of requests that the host knows.
 inline std::size_t maximum_of(request_index n) { return n; }
 template <class Integer>
 std::size_t maximum_of(device_count<Integer> n) {

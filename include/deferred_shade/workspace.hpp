@@ -30,8 +30,8 @@ struct every_schedule;  // schedule.hpp
 
 }  // namespace detail
 
-/// A request to a workspace for an array of `count` elements of a trivial type. Throws
-/// std::length_error where that is more than a sixteenth of the address space.
+/// Asks a workspace for an array of `count` elements of a trivial type. Throws std::length_error if
+/// the array would take more than a sixteenth of the address space.
 template <class T>
 struct elements {
   explicit elements(std::size_t n) : count(n) {
@@ -49,25 +49,25 @@ struct elements {
                 "deferred_shade: elements of a workspace must be aligned to at most 128 bytes");
 };
 
-/// Memory that schedules work in. It grows and never shrinks, so that a renderer that keeps one
-/// does not allocate once the largest batch has passed, or from the start after `reserve`.
+/// Memory that schedules work in. It grows and never shrinks. A renderer that keeps one does not
+/// allocate once the largest batch has passed, or from the start after `reserve`.
 ///
 /// One workspace serves one `shade` at a time; on CUDA, also one stream at a time. `Allocator` is
-/// any standard allocator, Thrust's among them; the memory it gives must be accessible where
-/// `shade` runs. A policy for CUDA gives one with a cuda_allocator, which allocates on the device
-/// that is current when it grows. A workspace that grows frees its old memory first. On CUDA,
-/// reserve or wait before that if the allocator does not wait for the device as cudaFree does.
+/// any standard allocator, including Thrust's. Its memory must be accessible where `shade` runs.
+/// CUDA policies use cuda_allocator, which allocates on the device that is current when the
+/// workspace grows. Growing frees the old memory first. If your allocator does not wait for the
+/// device as cudaFree does, reserve up front, or wait before it grows.
 ///
 ///     deferred_shade::workspace scratch{thrust::omp::par};
 ///     deferred_shade::workspace mine{my_allocator<std::byte>{pool}};
 ///
-/// A renderer's own type may stand in its place if it has these members, with the contracts that
-/// they have here: `take(elements<T>...)`, which returns a tuple of pointers; `reserve(n,
-/// shaders)`; and `begin_phase(phase) const`, which returns any object. If it has an
-/// `allocator_type`, `shade` looks at it.
+/// A renderer's own type may take its place. It needs these members, with the contracts that they
+/// have here: `take(elements<T>...)`, which returns a tuple of pointers; `reserve(n, shaders)`; and
+/// `begin_phase(phase) const`, which returns any object. If it has an `allocator_type`, `shade`
+/// checks that the machine can reach its memory.
 template <class Allocator = std::allocator<std::byte>>
 class workspace {
-  // Not over-aligned: some allocators ignore that, and it is done here.
+  // The type is not over-aligned: some allocators ignore that. `aligned` does it.
   struct line {
     std::byte bytes[detail::workspace_alignment];
   };
@@ -79,8 +79,8 @@ class workspace {
   workspace() = default;
   explicit workspace(Allocator const& allocator) : allocator_(allocator) {}
 
-  /// A workspace for the machine that a Thrust execution policy runs on; what else the policy
-  /// holds, an allocator of its own say, is not used.
+  /// A workspace for the machine that a Thrust execution policy runs on. Nothing else of the policy
+  /// is used, such as an allocator of its own.
   template <class Policy,
             class = std::enable_if_t<detail::thrust::is_execution_policy<Policy>::value &&
                                      std::is_default_constructible_v<Allocator>>>
@@ -100,9 +100,9 @@ class workspace {
   }
   ~workspace() { release(); }
 
-  /// Grows to what any schedule of the library takes for batches of up to `n` requests over tables
-  /// of up to `shaders` shaders. Throws std::length_error where no batch has so many, and what the
-  /// allocator throws. Needs schedule.hpp.
+  /// Grows to the most that a schedule of the library takes, for batches of up to `n` requests over
+  /// tables of up to `shaders` shaders. Throws std::length_error if `n` or `shaders` exceeds
+  /// `max_requests`, and what the allocator throws. Needs schedule.hpp.
   template <class Schedules = detail::every_schedule>
   void reserve(std::size_t n, std::size_t shaders) {
     if (n > max_requests || shaders > max_requests) {
@@ -113,12 +113,12 @@ class workspace {
     reserve_bytes(bytes_for<Schedules>(n, shaders));
   }
 
-  /// Grows to `bytes`, what a schedule says that it takes: `schedule.workspace_bytes(exec, n,
-  /// shaders)`. Throws what the allocator throws.
+  /// Grows to `bytes`, such as `schedule.workspace_bytes(exec, n, shaders)` of one schedule. Throws
+  /// what the allocator throws.
   void reserve_bytes(std::size_t bytes) { grow(bytes); }
 
-  /// The bytes that `reserve(n, shaders)` makes sure of: the most that a schedule says it takes, on
-  /// every machine that the memory may be for. Needs schedule.hpp.
+  /// The bytes that `reserve(n, shaders)` grows to: the most that a schedule takes, on any machine
+  /// that the memory may be for. Needs schedule.hpp.
   template <class Schedules = detail::every_schedule>
   static constexpr std::size_t bytes_for(std::size_t n, std::size_t shaders) noexcept {
     static_assert(detail::is_complete<Schedules>,
@@ -135,9 +135,9 @@ class workspace {
   /// The bytes held.
   std::size_t capacity() const noexcept { return lines_ * sizeof(line); }
 
-  /// Arrays for one schedule to work in, one for each argument, each aligned to 128 bytes.
+  /// Gives a schedule arrays to work in, one for each argument, each aligned to 128 bytes.
   ///
-  /// The arrays are uninitialised and valid until the next call: a schedule asks once for all that
+  /// The arrays are uninitialised, and valid until the next call: a schedule asks once for all that
   /// it needs. Throws what the allocator throws, and stays usable.
   ///
   ///     auto const [keys, offsets] = scratch.take(elements<std::uint8_t>(n), elements<int>(m));
@@ -148,7 +148,7 @@ class workspace {
     return {place(arrays, used)...};  // braces: from left to right
   }
 
-  /// Tells no one that a phase begins: see `observed`.
+  /// Does nothing, since no one observes: see `observed`.
   char begin_phase(phase const&) const noexcept { return 0; }
 
   /// Gives the memory back.
@@ -166,7 +166,7 @@ class workspace {
     return reinterpret_cast<T*>(first);
   }
 
-  // The memory may lie on another machine: nothing is read from it, whatever the type of pointer.
+  // The memory may be the GPU's: nothing is read through the pointer, whatever its type.
   std::byte* aligned() const noexcept {
     if (lines_ == 0) return nullptr;
     auto const address = reinterpret_cast<std::uintptr_t>(detail::raw_pointer(data_));
@@ -208,7 +208,7 @@ struct allocator_on<cuda_system> {
 };
 #endif
 
-// An allocator is taken as it is; a policy names the machine that the memory is for.
+// An allocator is taken as it is. A policy says which machine the memory is for.
 template <class T, class = void>
 struct allocator_for : allocator_on<system_of<T>> {};
 template <class Allocator>

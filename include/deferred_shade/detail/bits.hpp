@@ -7,13 +7,13 @@
 
 namespace deferred_shade::detail {
 
-/// The address of `object`, whatever its type makes of the operator &.
+/// The address of `object`, even if its type overloads the operator &.
 template <class T>
 DEFERRED_SHADE_HOST_DEVICE constexpr T* address_of(T& object) noexcept {
-  return __builtin_addressof(object);  // std::addressof is none of the device's functions
+  return __builtin_addressof(object);  // std::addressof is not a device function
 }
 
-/// The bits of `from` as another type. (Compilers keep what their builtin makes in registers.)
+/// The bits of `from` as another type. (Compilers keep the result of their builtin in registers.)
 template <class To, class From>
 DEFERRED_SHADE_HOST_DEVICE To bits_as(From const& from) noexcept {
   static_assert(sizeof(To) == sizeof(From),

@@ -11,7 +11,7 @@
 namespace deferred_shade::detail {
 
 /// `n` as a count of requests, for the function that `caller` names. Throws std::invalid_argument
-/// where `n` is negative, std::length_error where no batch has so many.
+/// if `n` is negative, std::length_error if it exceeds `max_requests`.
 template <class Integer>
 request_index checked_count(std::string const& caller, Integer n) {
   static_assert(std::is_integral_v<Integer> && !std::is_same_v<Integer, bool>,
@@ -31,8 +31,8 @@ request_index checked_count(std::string const& caller, Integer n) {
   return static_cast<request_index>(n);
 }
 
-/// The maximum of `n`; std::invalid_argument where it points nowhere, std::length_error where no
-/// batch has so many.
+/// The maximum of `n`. Throws std::invalid_argument if its pointer is null, std::length_error if
+/// the maximum exceeds `max_requests`.
 template <class Integer>
 request_index checked_maximum(std::string const& caller, device_count<Integer> n) {
   if (n.pointer == nullptr) {
@@ -42,8 +42,8 @@ request_index checked_maximum(std::string const& caller, device_count<Integer> n
   return detail::checked_count(caller, n.maximum);
 }
 
-/// The count that `n` points at; std::invalid_argument where it points nowhere, std::length_error
-/// where the count is above its maximum.
+/// The count that `n` points at. Throws what checked_maximum and checked_count throw, and
+/// std::length_error if the count exceeds its maximum.
 template <class Integer>
 request_index checked_count(std::string const& caller, device_count<Integer> n) {
   request_index const maximum = detail::checked_maximum(caller, n);

@@ -9,8 +9,8 @@
 
 namespace deferred_shade::detail {
 
-/// Throws an `Error` that is made of `arguments`. A program without exceptions (-fno-exceptions)
-/// writes one line to stderr instead, what the error says, and aborts.
+/// Throws an `Error` that is made of `arguments`. Without exceptions (-fno-exceptions), writes the
+/// error's message to stderr as one line and aborts.
 template <class Error, class... Arguments>
 [[noreturn]] inline void fail(Arguments const&... arguments) {
 #if DEFERRED_SHADE_HAS_EXCEPTIONS

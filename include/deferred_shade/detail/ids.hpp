@@ -10,7 +10,7 @@
 
 namespace deferred_shade::detail {
 
-/// Whether an object of this type is a shader id.
+/// Whether this type is one of shader ids.
 template <class Id>
 inline constexpr bool is_id =
     sizeof(Id) <= sizeof(std::uint32_t) &&
@@ -54,13 +54,13 @@ constexpr bool are_ids() {
   }
 }
 
-/// What the library asks of an iterator of ids. Every function that takes one looks here first, and
-/// compiles nothing else if it is not met: the first error is the only one. (Assertions come last
-/// in a class: clang reads no further.)
+/// What the library asks of an iterator of ids. Every function that takes one checks this first. If
+/// it is not met, nothing else is compiled: the first error is the only one. (Assertions come last
+/// in a class, because clang stops at them.)
 template <class Ids>
 struct requirements_of_ids {
   static constexpr bool met = has_ids<Ids> && are_ids<Ids>();
-  using value = std::bool_constant<met>;  // which clang computes here, and no later
+  using value = std::bool_constant<met>;  // makes clang compute it here
 
   static_assert(has_ids<Ids>,
                 "deferred_shade: ids must be a random-access iterator over shader ids; pass "
@@ -76,8 +76,8 @@ constexpr std::uint64_t largest_id_of() {
   return detail::largest_id<std::remove_cv_t<typename traits_of_ids<Ids>::value_type>>();
 }
 
-/// Which of the ids 0 to `Size` - 1 a list has, how many these are, and whether it has any other.
-/// By loops: clang limits folds to 256 operands.
+/// Which of the ids 0 to `Size` - 1 a list has, how many these are, and whether it has no other id.
+/// Uses loops, because clang limits folds to 256 operands.
 template <std::size_t Size>
 struct listed_ids {
   bool has[Size] = {};

@@ -9,10 +9,10 @@
 
 namespace deferred_shade::detail {
 
-/// What stands for a request or a result where there is none, because of an error.
+/// Stands for a request or a result if there is none because of an error.
 struct no_record {};
 
-/// What source(i) or source[i] gives.
+/// The type of source(i) or source[i], or void.
 template <class Source, class = void, class = void>
 struct request_of {
   using type = void;
@@ -27,7 +27,7 @@ struct request_of<Source, std::enable_if_t<!std::is_invocable_v<Source const&, r
   using type = std::decay_t<decltype(std::declval<Source const&>()[request_index{}])>;
 };
 
-/// What the function of a record shader returns.
+/// The type that the function of a record shader returns, or void.
 template <class Function, class Request, class = void>
 struct result_of {
   using type = void;
@@ -46,8 +46,8 @@ inline constexpr bool stores<Sink, Result,
                              std::void_t<decltype(std::declval<Sink const&>()[request_index{}] =
                                                       std::declval<Result const&>())>> = true;
 
-/// The request and the result of a record shader, and what the library asks of the three parts. If
-/// it is not met, nothing else is compiled of the shader: the first error is the only one.
+/// The request and the result of a record shader, and what the library asks of its three parts. If
+/// that is not met, nothing else of the shader is compiled: the first error is the only one.
 template <class Source, class Function, class Sink>
 struct record_types {
  private:

@@ -15,8 +15,8 @@
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
 
-// What `shade` asks of its arguments. Each check holds where one before it has failed, and nothing
-// else is compiled then: the first error is the only one.
+// What `shade` asks of its arguments. If a check fails, the later ones pass and nothing else is
+// compiled: the first error is the only one.
 
 namespace deferred_shade {
 
@@ -49,7 +49,7 @@ inline constexpr bool has_begin_phase<
     T, std::void_t<decltype(std::declval<T const&>().begin_phase(std::declval<phase const&>()))>> =
     !std::is_void_v<decltype(std::declval<T const&>().begin_phase(std::declval<phase const&>()))>;
 
-// Where the memory of an allocator lies, if its type says that.
+// Where the memory of an allocator lies, if its type tells.
 template <class Allocator>
 inline constexpr bool is_on_host = false;
 template <class T>
@@ -59,7 +59,7 @@ inline constexpr bool is_on_device = false;
 template <class T>
 inline constexpr bool is_on_device<cuda_allocator<T>> = true;
 
-/// Whether a shader can be called; the table or the record shader has said what is wrong if not.
+/// Whether a shader can be called. If not, the table or the record shader has said what is wrong.
 template <class Shader>
 struct is_callable : std::bool_constant<!is_device_lambda<Shader> &&
                                         std::is_invocable_v<Shader const&, request_index>> {};
@@ -67,7 +67,7 @@ template <class Source, class Function, class Sink>
 struct is_callable<record_shader<Source, Function, Sink>>
     : std::bool_constant<record_types<Source, Function, Sink>::met> {};
 
-/// Whether all hold. By a loop: a recursion over the shaders of a large table has no end.
+/// Whether all hold. Uses a loop: a recursion over the shaders of a large table would be too deep.
 template <bool... Values>
 constexpr bool all_of() {
   bool const values[] = {Values..., true};
@@ -118,7 +118,7 @@ struct requirements_of_shade {
  public:
   static constexpr bool met = ids && wide_enough() && takes && reserves && has_phases &&
                               reachable_by_gpu && reachable_by_cpu && copies;
-  using value = std::bool_constant<met>;  // which clang computes here, and no later
+  using value = std::bool_constant<met>;  // makes clang compute it here
 
   static_assert(exec,
                 "deferred_shade: exec must be an execution policy of Thrust's system cpp, omp, tbb "

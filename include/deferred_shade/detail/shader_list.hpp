@@ -10,15 +10,15 @@
 
 namespace deferred_shade {
 
-/// What stands in a table where shader_table::only has left out a shader: no code is made for it.
+/// Takes the place of a shader that shader_table::only has left out. No code is generated for it.
 struct no_shader {
   DEFERRED_SHADE_HOST_DEVICE void operator()(request_index) const {}
 };
 
 namespace detail {
 
-// A table has one base class per shader, and finds a shader by conversion to its base: unlike a
-// tuple, no fold or recursion over the pack limits its size or slows the compiler.
+// A table has one base class per shader, and finds a shader by conversion to its base. Unlike in a
+// tuple, no fold or recursion over the pack limits the size or slows the compiler.
 template <shader_id Id, class Shader>
 struct table_slot {
   static_assert(!is_device_lambda<Shader>,
@@ -48,7 +48,7 @@ DEFERRED_SHADE_HOST_DEVICE constexpr Shader const& shader_in(
   return slot.shader;
 }
 
-/// The shaders of a table: all of it that a kernel is given.
+/// The shaders of a table: the part of it that kernels are given.
 template <class... Shaders>
 class shader_list {
  public:
@@ -57,7 +57,7 @@ class shader_list {
   /// The number of shaders.
   static constexpr shader_id size() noexcept { return static_cast<shader_id>(sizeof...(Shaders)); }
 
-  /// Whether there is a shader at position `Id`, or `only` has left it out.
+  /// Whether there is a shader at position `Id`: false if `only` has left it out.
   template <shader_id Id>
   static constexpr bool has =
       !std::is_same_v<std::decay_t<decltype(shader_in<Id>(std::declval<table_of<Shaders...>>()))>,
@@ -77,13 +77,13 @@ class shader_list {
     return detail::shader_in<Id>(shaders_);
   }
 
-  /// Runs shader `id` on request `i`; does nothing where the table has no such shader.
+  /// Runs shader `id` on request `i`. Does nothing if the table has no such shader.
   DEFERRED_SHADE_EXEC_CHECK_DISABLE
   DEFERRED_SHADE_HOST_DEVICE void run(shader_id id, request_index i) const {
     visit(id, call_with{i});
   }
 
-  /// Calls `f(shader)` for shader `id`; does nothing where the table has no such shader.
+  /// Calls `f(shader)` for shader `id`. Does nothing if the table has no such shader.
   DEFERRED_SHADE_EXEC_CHECK_DISABLE
   template <class Function>
   DEFERRED_SHADE_HOST_DEVICE void visit(shader_id id, Function const& f) const {
@@ -98,8 +98,8 @@ class shader_list {
   }
 
  private:
-  // Compilers turn the folded comparisons into one switch. The halving above it keeps the depth of
-  // a fold, which clang limits to 256, apart from the size of the table.
+  // Compilers turn the folded comparisons of a leaf into one switch. Larger tables are halved
+  // first, because clang limits the depth of a fold to 256.
   static constexpr shader_id leaf_size = 32;
 
   struct call_with {

@@ -16,7 +16,8 @@
 
 namespace deferred_shade::detail {
 
-/// The ids of the shaders that a table has: the first `count` of `ids`; and a bit for each.
+/// The ids of the shaders that a table has: the first `count` of `ids`, and a bit for each below
+/// 32.
 template <class... Shaders>
 struct present_ids {
   std::array<shader_id, sizeof...(Shaders)> ids{};
@@ -33,7 +34,7 @@ struct present_ids {
   }
 };
 
-/// The place of an id among those of `Present`; 32 for one that is not there.
+/// The place of an id among those of `Present`, or 32 if it is not one of them.
 template <std::uint32_t Present>
 struct place_among {
   template <class Id>
@@ -52,8 +53,8 @@ struct place_among {
   }
 };
 
-/// The workspace for a table whose shader k has another id, `ids[k]`, in the renderer's table: that
-/// is the one which an observer is told.
+/// The workspace for a table whose shader k is shader `ids[k]` of the renderer's table. An observer
+/// is told the renderer's id.
 template <class Workspace>
 struct renumbered : workspace_wrapper<Workspace> {
   shader_id const* ids;
@@ -67,11 +68,11 @@ struct renumbered : workspace_wrapper<Workspace> {
   }
 };
 
-/// Whether a schedule takes a table with its gaps, because it goes by ids itself.
+/// Whether a schedule takes a table with its gaps, because it uses ids itself.
 template <class Schedule>
 inline constexpr bool takes_gaps = false;
 
-/// The shaders that a table has, in a table without gaps.
+/// A table of the shaders that `shaders` has, without gaps.
 template <class... Shaders, std::size_t... Places>
 auto without_gaps(shader_table<Shaders...> const& shaders, std::index_sequence<Places...>) {
   constexpr present_ids<Shaders...> present;
@@ -82,9 +83,9 @@ auto without_gaps(shader_table<Shaders...> const& shaders, std::index_sequence<P
   return dense.expecting(expected_here);
 }
 
-/// Runs a schedule. On a GPU, a table of up to 32 places loses its empty ones, and ids are
-/// renumbered: nothing is counted, sorted or launched for a shader that is not there. (A CPU looks
-/// at ids one by one, so this costs more than it gains there.)
+/// Runs a schedule. On a GPU, tables of up to 32 places are compacted: empty places are dropped and
+/// ids renumbered. Nothing is then counted, sorted or launched for a shader that is not there. (On
+/// a CPU, renumbering every id costs more than that gains.)
 template <class System, class Schedule, class Policy, class Count, class Ids, class... Shaders,
           class Workspace>
 void run_schedule(System, Schedule const& schedule, Policy const& exec, Count n, Ids ids,

@@ -12,11 +12,11 @@
 
 namespace deferred_shade::detail {
 
-// A program may wrap Thrust and CUB in a namespace of its own (THRUST_CUB_WRAPPED_NAMESPACE). What
-// the library calls thrust and cub are these.
+// A program may wrap Thrust and CUB in a namespace of its own (THRUST_CUB_WRAPPED_NAMESPACE). The
+// library's names thrust and cub refer to the wrapped ones.
 namespace thrust = THRUST_NS_QUALIFIER;
 
-/// Where an execution policy runs: what a tuned version of an algorithm is chosen by.
+/// Where an execution policy runs. It selects the version of an algorithm.
 struct host_system {};
 struct cuda_system {};
 
@@ -31,7 +31,8 @@ host_system find_system(host_system);
 cuda_system find_system(cuda_system);
 void find_system(...);
 
-/// host_system, cuda_system where a CUDA compiler is at work, or void. Each of the two is its own.
+/// The system of a policy: host_system; in code for a CUDA compiler, cuda_system; or void. A system
+/// is its own system.
 template <class Policy>
 using system_of = decltype(detail::find_system(std::declval<Policy const&>()));
 

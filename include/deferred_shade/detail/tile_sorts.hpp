@@ -19,8 +19,8 @@ struct bitonic {
 
 namespace detail {
 
-/// A key to sort a tile by: the shader above the position in the tile, so that requests of one
-/// shader keep their order. The largest number is no key.
+/// A key to sort a tile by: the shader above the position in the tile. Requests of one shader keep
+/// their order. The largest number is no key.
 template <shader_id Shaders>
 DEFERRED_SHADE_HOST_DEVICE constexpr std::uint32_t bitonic_key(shader_id shader,
                                                                request_index position) {

@@ -10,11 +10,11 @@
 #include <deferred_shade/detail/fail.hpp>
 #include <deferred_shade/types.hpp>
 
-// What statistics.hpp checks and adds up.
+// The checks and sums of statistics.hpp.
 
 namespace deferred_shade::detail {
 
-/// Of `n` requests, an array that is not there is an error.
+/// Throws std::invalid_argument if `array` is a null pointer while `n` is not 0.
 template <class Array>
 void check_array([[maybe_unused]] std::string const& caller, [[maybe_unused]] char const* name,
                  [[maybe_unused]] Array const& array, [[maybe_unused]] request_index n) {
@@ -26,7 +26,7 @@ void check_array([[maybe_unused]] std::string const& caller, [[maybe_unused]] ch
   }
 }
 
-/// Two sums of costs: what shaders ask for, and what one lane is held for.
+/// Two sums of costs: the work that shaders ask for, and the work for which one lane is held.
 struct work {
   double useful = 0, held = 0;
 
@@ -40,8 +40,8 @@ struct work {
   }
 };
 
-/// What `sum(scale)` makes of costs that are multiplied by `scale`: of the costs as they are, or,
-/// if their sums are too large for a double, of smaller ones. The efficiency is the same.
+/// The sums `sum(scale)` of costs that are multiplied by `scale`: 1, or 2^-128 if the sums are too
+/// large for a double. The efficiency is the same.
 template <class Sum>
 work finite_work(std::uint32_t width, Sum const& sum) {
   work const plain = sum(1.0);

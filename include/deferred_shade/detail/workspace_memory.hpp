@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-// What a workspace and those who size one know of memory and of allocators.
+// What workspaces, and those who compute their size, know of memory and allocators.
 
 namespace deferred_shade::detail {
 
@@ -15,7 +15,7 @@ inline constexpr bool is_complete = false;
 template <class T>
 inline constexpr bool is_complete<T, std::void_t<decltype(sizeof(T))>> = true;
 
-// Memory of std::allocator is never that of a GPU; memory of others may be.
+// Memory of std::allocator is never a GPU's; memory of others may be.
 template <class Allocator>
 inline constexpr bool is_for_hosts_alone = false;
 template <class T>
@@ -23,8 +23,8 @@ inline constexpr bool is_for_hosts_alone<std::allocator<T>> = true;
 
 inline constexpr std::size_t workspace_alignment = 128;
 
-/// A plain pointer for what an allocator gives: one itself, one of Thrust's, or another one that
-/// knows the address as get() or operator->().
+/// The plain pointer of an allocator's pointer: itself, or what its get() (as Thrust's) or
+/// operator->() returns.
 template <class Pointer, class = void>
 inline constexpr bool has_get = false;
 template <class Pointer>
@@ -41,13 +41,13 @@ void* raw_pointer(Pointer const& pointer) {
   }
 }
 
-/// What an array takes of a workspace.
+/// The bytes of workspace that an array of `count` elements takes.
 template <class T>
 constexpr std::size_t array_bytes(std::size_t count) noexcept {
   return (count * sizeof(T) + workspace_alignment - 1) / workspace_alignment * workspace_alignment;
 }
 
-/// The allocator of a workspace; void if it names none.
+/// The allocator type of a workspace, or void if it names none.
 template <class T, class = void>
 struct allocator_of {
   using type = void;

@@ -16,12 +16,12 @@ static_assert(
     "deferred_shade: std::size_t must have 64 bits, in which sizes of batches are computed; "
     "compile for a 64-bit target");
 
-/// A batch of n requests cut into blocks of equal size, the last one excepted; one worker owns a
+/// A batch of n requests, cut into blocks of equal size, except for the last one. One worker owns a
 /// block at a time.
 ///
-/// A row of counters per block, `shaders` + 1 of them, is at most a sixteenth as many as the
-/// requests that it counts, and there are never more than 1024 blocks. Their size is a multiple of
-/// `granule`: with 64, blocks of one array share no cache line.
+/// Each block has a row of `shaders` + 1 counters: at most one for every 16 requests of the block.
+/// There are never more than 1024 blocks. Their size is a multiple of `granule`: with 64, blocks of
+/// one array share no cache line.
 class block_partition {
  public:
   constexpr block_partition(std::size_t n, std::size_t shaders, std::size_t granule = 64) noexcept
@@ -30,15 +30,15 @@ class block_partition {
                           (std::max)(least_size(shaders), (n + most_blocks - 1) / most_blocks))),
         count_((n + size_ - 1) / size_) {}
 
-  /// A bound of count(), for any granule, that does not fall when n grows: what to allocate for.
+  /// An upper bound of count(), for any granule, that does not fall when n grows. Arrays are
+  /// allocated for it.
   static constexpr std::size_t max_count(std::size_t n, std::size_t shaders) noexcept {
     std::size_t const least = least_size(shaders);
     return (std::min)(most_blocks, (n + least - 1) / least);
   }
 
-  /// A bound of max_count(n, s) * (s + 1), and of one row more, for any s up to `shaders`. Tables
-  /// of more than 1023 shaders have larger blocks: their counters are at most n / 16 and one row,
-  /// nearly.
+  /// An upper bound of (max_count(n, s) + 1) * (s + 1), for any s up to `shaders`. Tables of more
+  /// than 1023 shaders have larger blocks, with about n / 16 counters and one row at most.
   static constexpr std::size_t max_counters(std::size_t n, std::size_t shaders) noexcept {
     std::size_t const few = (std::min)(shaders, least_block / requests_per_counter - 1);
     return (max_count(n, 0) + 1) * (few + 2) +
@@ -71,9 +71,10 @@ void for_each_block(Policy const& exec, block_partition const& blocks, Function 
   detail::parallel_for(exec, blocks.count(), f);
 }
 
-/// Turns counts into places: `counts[b * columns + k]`, the number of elements of column k in
-/// block b, becomes the position of the first of them when elements are ordered by column, then by
-/// block. `offsets[k]` becomes the position of the first element of column k.
+/// Turns counts into places, for elements ordered by column, then by block.
+/// `counts[b * columns + k]` is the number of elements of column k in block b, and becomes the
+/// position of the first of them. `offsets[k]` becomes the position of the first element of column
+/// k.
 inline void scan_columns(block_partition const& blocks, std::uint32_t columns,
                          std::uint32_t* counts, std::uint32_t* offsets) {
   std::fill_n(offsets, columns, 0U);
@@ -82,7 +83,7 @@ inline void scan_columns(block_partition const& blocks, std::uint32_t columns,
     for (std::uint32_t k = 0; k < columns; ++k) offsets[k] += row[k];
   }
   std::exclusive_scan(offsets, offsets + columns, offsets, 0U);
-  // `offsets` runs ahead as each block takes its share, and ends as the start of the next column.
+  // `offsets[k]` grows as each block takes its share, up to the start of column k + 1.
   for (std::size_t b = 0; b < blocks.count(); ++b) {
     std::uint32_t* const row = counts + b * columns;
     for (std::uint32_t k = 0; k < columns; ++k) {

@@ -14,8 +14,8 @@
 
 namespace deferred_shade::detail {
 
-/// Calls `f(keys, first, size)` for the requests from `begin` to `end`, `Chunk` at a time: their
-/// keys, the first of them, and their number.
+/// Calls `f(keys, first, size)` for the requests from `begin` to `end`, `Chunk` at a time, with
+/// their keys, the index of the first one, and their number.
 template <shader_id Shaders, std::size_t Chunk, class Ids, class Function>
 void for_each_chunk(Ids const& ids, std::size_t begin, std::size_t end, Function const& f) {
   sort_key<Shaders> keys[Chunk];
@@ -33,8 +33,8 @@ constexpr std::size_t bucket_bytes(host_system, std::size_t n, std::size_t shade
          detail::array_bytes<request_index>(shaders + 1);
 }
 
-/// Counts the keys of the requests from `begin` to `end`. A large table is counted where the counts
-/// go: a worker's stack may be small.
+/// Counts the keys of the requests from `begin` to `end`. Large tables are counted in `counts`
+/// itself, because a worker's stack may be small.
 template <shader_id Shaders, request_index Parts, std::size_t VectorBytes, class Ids>
 void count_block(Ids const& ids, std::size_t begin, std::size_t end, std::uint32_t* counts) {
   if constexpr (Parts == 1 && VectorBytes == 0) {

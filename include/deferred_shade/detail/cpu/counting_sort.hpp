@@ -13,19 +13,19 @@
 #include <deferred_shade/detail/cpu/tuning.hpp>
 #include <deferred_shade/types.hpp>
 
-// The steps of a stable counting sort on a CPU: ids are loaded as keys, which compilers make
-// vectors of; keys are counted; and what they belong to is put to its place.
+// The steps of a stable counting sort on a CPU: load ids as keys, in a loop that compilers
+// vectorise; count the keys; put the requests to their places.
 
 namespace deferred_shade::detail {
 
-/// The ids of request `first` and of those after it. A loop that counts from 0 over them becomes
-/// vectors; one over `first + i` does not, because such a sum may wrap.
+/// The ids from request `first` on. Compilers vectorise a loop that counts from 0 over them, but
+/// not one over `first + i`, because that sum may wrap.
 template <class Ids>
 Ids ids_from(Ids const& ids, request_index first) {
   return ids + static_cast<typename std::iterator_traits<Ids>::difference_type>(first);
 }
 
-/// Loads the shaders of the first `size` requests: `Shaders` for those that name none.
+/// Loads the shaders of the first `size` requests, and `Shaders` for those that name none.
 template <shader_id Shaders, class Ids, class Key>
 void load_keys(Ids const& ids, std::size_t size, Key* __restrict keys) {
   for (std::size_t i = 0; i < size; ++i) {
@@ -57,17 +57,18 @@ struct byte_vector_of<32> {
 };
 #endif
 
-/// The bytes of the vectors in which the keys of a table are compared; 0 if each is looked at.
+/// The bytes of the vectors in which the keys of a table are compared, or 0 if they are counted one
+/// by one.
 template <shader_id Shaders, class Tuning>
 inline constexpr std::size_t compared_bytes = vector_bytes != 0 &&
                                                       Tuning::compares_keys(Shaders, vector_bytes)
                                                   ? vector_bytes
                                                   : 0;
 
-/// How often each of the keys 0 to `Shaders` occurs in each part of a sequence: in `Parts` parts of
-/// equal length, and what is left over is the last one's. `VectorBytes`: see compared_bytes. It
-/// depends on the instructions that a translation unit is compiled for. So it is a part of the
-/// name, and the linker takes no function from another unit.
+/// How often each of the keys 0 to `Shaders` occurs in each part of a sequence. The `Parts` parts
+/// have equal length; the last one has the rest as well. `VectorBytes` is compared_bytes, which
+/// depends on the instruction set of a translation unit. It is a part of the type: the linker then
+/// takes no function from a unit with another one.
 template <shader_id Shaders, request_index Parts, std::size_t VectorBytes>
 class key_counts {
   static constexpr bool compares = VectorBytes != 0;
@@ -96,9 +97,9 @@ class key_counts {
     return sum;
   }
 
-  /// Puts the numbers `first` to `first + size - 1` to the places of their keys, in this order:
-  /// next[k] is the place of the next number whose key is k, before and after. The keys are those
-  /// of the one call of `add` before; counts are places then.
+  /// Puts the numbers `first` to `first + size - 1` to the places of their keys, in this order.
+  /// next[k] is the place of the next number whose key is k, before and after. Must follow a single
+  /// call of `add` with the same keys; turns the counts into places.
   template <class Number>
   void place(key const* keys, request_index size, Number first, std::uint32_t* next,
              Number* places) {
@@ -111,8 +112,8 @@ class key_counts {
   }
 
  private:
-  // Calls `f(counts, i)` for every key i from number `begin` of its part on. In 64 bits, which do
-  // not wrap: clang keeps a counter for each part otherwise, in memory.
+  // Calls `f(counts, i)` for every key i from number `begin` of its part on. Indices have 64 bits,
+  // which do not wrap: otherwise clang keeps a counter for each part, in memory.
   template <class Function>
   void in_turn(std::size_t begin, std::size_t size, Function const& f) {
     std::size_t const length = size / Parts;
@@ -123,8 +124,8 @@ class key_counts {
   }
 
 #if DEFERRED_SHADE_HAS_GNU
-  // Subtracts the answers, which are -1 where a key is that of the shader. Returns how many keys it
-  // has counted. Where the inner loop is not unrolled, g++ keeps the counts in memory.
+  // Counts by subtracting comparisons, which are -1 for a key of the shader. Returns how many keys
+  // it has counted. If the inner loop is not unrolled, g++ keeps the counts in memory.
   static request_index add_vectors(key const* keys, request_index size, std::uint32_t* counts_of) {
     using byte_vector = typename byte_vector_of<VectorBytes>::type;
     constexpr std::uint32_t width = VectorBytes;
@@ -167,7 +168,8 @@ bool are_same(Key const* keys) {
   return std::memcmp(keys, keys + 1, (key_step - 1) * sizeof(Key)) == 0;
 }
 
-/// In how many quarters of all looks neighbours are the same, by a look at an eighth of them.
+/// The share of key_step neighbours that are the same, in quarters (0 to 4), from a sample of an
+/// eighth.
 template <class Key>
 request_index quarters_same(Key const* keys, request_index size) {
   request_index looks = 0, same = 0;
@@ -178,8 +180,8 @@ request_index quarters_same(Key const* keys, request_index size) {
   return looks == 0 ? 0 : 4 * same / looks;
 }
 
-/// Puts one number to the place of its key. Prefetches ahead of it into the cache `Ahead`: a
-/// processor does that too late, and not at all for many places. `none` is for places that are near
+/// Puts one number to the place of its key. Prefetches ahead of it into the cache `Ahead`: hardware
+/// prefetches too late, or not at all if there are many places. `none` is for places that are near
 /// each other.
 template <cache Ahead, class Number>
 void place_one(std::size_t key, Number number, std::uint32_t* next, Number* places) {
@@ -188,13 +190,13 @@ void place_one(std::size_t key, Number number, std::uint32_t* next, Number* plac
   detail::prefetch<Ahead>(places, place + prefetched_bytes / sizeof(Number));
 }
 
-/// The same as key_counts::place with no counts of these keys, one after the other.
+/// Does what key_counts::place does, but one key after the other and without counts of the keys.
 template <cache Ahead, class Key, class Number>
 void place_each(Key const* keys, request_index size, Number first, std::uint32_t* next,
                 Number* places) {
   request_index i = 0;
 #if DEFERRED_SHADE_HAS_GNU && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-  if constexpr (Ahead == cache::second_level) {  // loads are many: eight bytes of keys by one
+  if constexpr (Ahead == cache::second_level) {  // saves loads: one for eight bytes of keys
     for (std::uint64_t word; size - i >= sizeof word / sizeof(Key);) {
       std::memcpy(&word, keys + i, sizeof word);
       for (std::size_t bit = 0; bit < 64; bit += 8 * sizeof(Key), ++i) {
@@ -208,8 +210,8 @@ void place_each(Key const* keys, request_index size, Number first, std::uint32_t
     detail::place_one<Ahead>(keys[i], static_cast<Number>(first + i), next, places);
 }
 
-/// As place_each, but those that are the same take one look at `next`, where each would wait for
-/// the one before.
+/// As place_each, but key_step equal keys take one access to `next`; one by one, each would wait
+/// for the one before.
 template <cache Ahead, class Key, class Number>
 void place_by_keys(Key const* keys, request_index size, Number first, std::uint32_t* next,
                    Number* places) {

@@ -31,7 +31,7 @@ void run_explicit(host_system, Policy const& exec, request_index n, Ids ids,
   });
 }
 
-/// Runs a record shader on the `size` requests of its segment, packed.
+/// Runs a record shader on the `size` requests of its segment, in packed chunks.
 template <class Policy, class Shader>
 void run_in_chunks(Policy const& exec, Shader const& shader, request_index const* segment,
                    std::size_t size) {
@@ -39,7 +39,7 @@ void run_in_chunks(Policy const& exec, Shader const& shader, request_index const
   detail::parallel_for(exec, (size + chunk - 1) / chunk, [=, &shader](std::size_t c) {
     std::size_t const from = c * chunk;
     std::size_t const count = (std::min)(chunk, size - from);
-    // What comes next is prefetched: the next chunk, mostly the same worker's.
+    // Prefetches the next chunk, which mostly is the same worker's.
     detail::run_segment(
         shader, count, [=](std::size_t j) { return segment[from + j]; },
         [=, &shader](std::size_t j) {

@@ -20,8 +20,8 @@ void run_implicit(host_system, Policy const& exec, request_index n, Ids ids,
   });
 }
 
-// The switch is on the segment that holds the request. Every block has its share of every segment,
-// so that no worker has all requests of the slowest shader.
+// The switch is over the segment that holds the request. Every block has its share of every
+// segment: no worker gets all requests of the slowest shader.
 template <class Policy, class... Shaders, class Workspace>
 void run_implicit(host_system, Policy const& exec, grouping group,
                   shader_table<Shaders...> const& shaders, Workspace const&) {

@@ -22,7 +22,7 @@ inline constexpr bool has_words =
     !std::is_empty_v<T> && sizeof(T) % 4 == 0 && sizeof(T) <= 256;
 
 #if DEFERRED_SHADE_HAS_GNU
-/// What most CPUs load and store at a time at least.
+/// The vector that most CPUs can load and store at once.
 using four_words = std::uint32_t __attribute__((vector_size(16)));
 
 inline void transpose(four_words (&rows)[4]) noexcept {
@@ -37,8 +37,8 @@ inline void transpose(four_words (&rows)[4]) noexcept {
 }
 #endif
 
-/// Copies word number `word` of a record. No member of a template below: g++ 13 takes that of one
-/// record for that of another whose code is the same, and warns of the other's bounds.
+/// Copies word number `word` of a record. Not a member of the template below: g++ 13 would merge
+/// equal members for different records, and warn about the bounds of another record.
 inline void copy_word(std::size_t word, void const* record, std::uint32_t& to) noexcept {
   std::memcpy(&to, static_cast<unsigned char const*>(record) + 4 * word, 4);
 }
@@ -54,16 +54,16 @@ class lanes {
 
  public:
   T get(std::size_t lane) const noexcept { return get(lane, each_word()); }
-  // By value: a reference would have g++ keep the record in memory, and the loop scalar.
+  // By value: with a reference, g++ keeps the record in memory and the loop scalar.
   void set(std::size_t lane, T record) noexcept {
     set(lane, detail::bits_as<words>(record), each_word());
   }
-  /// The same from memory, for a loop that is not vectorised.
+  /// Sets a record from memory, in a loop that is not vectorised.
   void copy(std::size_t lane, T const& record) noexcept {
     for (std::size_t word = 0; word < count; ++word)
       detail::copy_word(word, detail::address_of(record), words_[word][lane]);
   }
-  /// Four records to `lane` and the lanes after it.
+  /// Sets four records, at `lane` and the lanes after it.
   void copy(std::size_t lane, T const& a, T const& b, T const& c, T const& d) noexcept {
 #if DEFERRED_SHADE_HAS_GNU
     constexpr std::size_t shuffled = count / 4 * 4;
@@ -76,7 +76,7 @@ class lanes {
 #else
     constexpr std::size_t shuffled = 0;
 #endif
-    if constexpr (shuffled < count) {  // g++ warns of a loop that it knows to be empty
+    if constexpr (shuffled < count) {  // g++ warns about a loop that it knows to be empty
       for (std::size_t word = shuffled; word < count; ++word) {
         detail::copy_word(word, detail::address_of(a), words_[word][lane]);
         detail::copy_word(word, detail::address_of(b), words_[word][lane + 1]);

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <type_traits>
 #if __has_include(<tbb/task_arena.h>)
-// Its headers do not survive macros of these names, which a renderer may have.
+// Its headers do not compile with macros of these names, which a renderer may have.
 #pragma push_macro("min")
 #pragma push_macro("max")
 #undef min
@@ -27,10 +27,10 @@
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/types.hpp>
 
-// The loops that all algorithms for CPUs are made of. They keep two promises that Thrust's TBB
-// system alone does not keep. A worker takes indices in ascending order. And a thread that waits
-// for the end of the loop takes no other task of the renderer's, which could call the library with
-// the same workspace.
+// The loops that all algorithms for CPUs are made of. They make two promises that Thrust's TBB
+// system does not make. First, a worker takes indices in ascending order. Second, a thread that
+// waits for the end of the loop takes no other task of the renderer's, which could call the library
+// with the same workspace.
 
 namespace deferred_shade::detail {
 
@@ -41,7 +41,7 @@ template <class Policy>
 inline constexpr bool is_tbb = decltype(detail::find_tbb(std::declval<Policy const&>()))::value;
 
 #if DEFERRED_SHADE_HAS_TBB
-/// Calls `f(i)` for i from 0 to `count` - 1. Every worker takes the next index that is left.
+/// Calls `f(i)` for i from 0 to `count` - 1. Each worker takes the next index that is left.
 template <class Policy, class Function>
 void parallel_for_tbb(Policy const& exec, std::size_t count, Function const& f) {
   auto const workers =
@@ -56,8 +56,8 @@ void parallel_for_tbb(Policy const& exec, std::size_t count, Function const& f) 
 }
 #endif
 
-/// Calls `f(i)` for i from 0 to `count` - 1, a std::size_t, spread over the workers of `exec`. One
-/// alone is called here, without a parallel region.
+/// Calls `f(i)` for i from 0 to `count` - 1, a std::size_t, spread over the workers of `exec`. A
+/// single index runs on the calling thread, without a parallel region.
 template <class Policy, class Function>
 void parallel_for(Policy const& exec, std::size_t count, Function const& f) {
   if (count <= 1) {
@@ -73,8 +73,8 @@ void parallel_for(Policy const& exec, std::size_t count, Function const& f) {
   }
 }
 
-/// Calls `f(i)` for the requests from 0 to `n` - 1, spread over the workers of `exec`. A few are
-/// called here: their shaders would have to be slow to be worth a parallel region.
+/// Calls `f(i)` for the requests from 0 to `n` - 1, spread over the workers of `exec`. A few
+/// requests run on the calling thread: only slow shaders would be worth a parallel region.
 template <class Policy, class Function>
 void for_each_request(Policy const& exec, std::size_t n, Function const& f) {
   if (n <= serial_requests) {

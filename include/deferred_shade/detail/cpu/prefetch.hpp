@@ -10,9 +10,9 @@
 
 namespace deferred_shade::detail {
 
-/// Brings the line of pointer[i] near to this core, to be read or written. Does nothing if
-/// `pointer` is no pointer. The address need not be valid. Always prefetches to read: the
-/// instruction for writes does not know the second-level cache.
+/// Prefetches the cache line of pointer[i], to be read or written. Does nothing if `pointer` is not
+/// a pointer. The address need not be valid. Always a read prefetch: write prefetches cannot target
+/// the second-level cache.
 template <cache To, class Pointer>
 void prefetch([[maybe_unused]] Pointer const& pointer, [[maybe_unused]] request_index i) noexcept {
 #if DEFERRED_SHADE_HAS_GNU

@@ -36,13 +36,13 @@ void sort_by_byte(key_pairs<Key> from, key_pairs<Key> to, std::size_t size, int 
   }
 }
 
-/// The bytes that tell the keys 0 to `largest` apart: a pass each.
+/// The bytes that hold the keys 0 to `largest`; each takes a pass.
 constexpr int radix_passes(std::uint32_t largest) {
   return largest <= 0xff ? 1 : largest <= 0xffff ? 2 : largest <= 0xffffff ? 3 : 4;
 }
 
-/// Makes sorted pairs of the `size` requests from `first` on, in `sorted`. `other` has as much
-/// room.
+/// Makes sorted pairs of the `size` requests from `first` on, in `sorted`. `other` is a buffer of
+/// the same size.
 template <shader_id Shaders, class Key, class Ids>
 void sort_block(Ids const& ids, request_index first, std::size_t size, key_pairs<Key> sorted,
                 key_pairs<Key> other) {
@@ -105,8 +105,7 @@ grouping radix_grouping(host_system, Policy const& exec, request_index n, Ids id
         std::uint32_t const* const row = counts + b * columns;
         request_index const* run = sorted.indices + blocks.begin(b);
         for (shader_id k = 0; k < Shaders; ++k) {
-          // The next block's place in the segment, or the segment's end, tells
-          // how long the run is.
+          // The run ends where the next block's begins, or at the end of the segment.
           std::uint32_t const end = b + 1 < blocks.count() ? row[columns + k] : offsets[k + 1];
           std::copy_n(run, end - row[k], permutation + row[k]);
           run += end - row[k];

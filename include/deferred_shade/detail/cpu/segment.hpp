@@ -13,10 +13,10 @@
 #include <deferred_shade/shader_traits.hpp>
 #include <deferred_shade/types.hpp>
 
-// How a CPU runs one shader on many requests: their records are packed, and the shader runs over
-// them in a loop that compilers vectorise (docs/records.md, "Vectors on a CPU").
+// How a CPU runs one shader on many requests. It packs their records and runs the shader over them
+// in a loop that compilers vectorise (docs/records.md, "Vectors on a CPU").
 
-/// Goes before a function that is compiled by itself, with all that it calls inlined.
+/// Goes before a function that is not inlined, but has all its callees inlined.
 #if DEFERRED_SHADE_HAS_GNU
 #define DEFERRED_SHADE_FLATTEN __attribute__((flatten, noinline))
 #else
@@ -42,8 +42,7 @@ inline constexpr std::size_t packed_lanes = (std::min)(most_packed,
                                                             sizeof(typename Shader::result_type)) /
                                                            16 * 16);
 
-/// Brings request i and the place of its result near to this core, where `shader` is a record
-/// shader.
+/// Prefetches request i and the place of its result, if `shader` is a record shader.
 template <class Shader>
 void prefetch_records(Shader const& shader, request_index i) noexcept {
   if constexpr (is_record_shader<Shader>) {
@@ -52,10 +51,9 @@ void prefetch_records(Shader const& shader, request_index i) noexcept {
   }
 }
 
-/// Runs a shader on the requests `index_of(j)` for j from 0 to `count` - 1, which is at most
-/// `packed_lanes`, and calls `ahead(j)` between loads. Kept out of line: all shaders then have
-/// their lanes in the same place of the stack. All that it calls is inlined: a loop with a call
-/// stays scalar.
+/// Runs a shader on the requests `index_of(j)` for j from 0 to `count` - 1, and calls `ahead(j)`
+/// between loads. `count` is at most `packed_lanes`. Kept out of line: all shaders then use the
+/// same part of the stack. Its callees are inlined: a loop with a call stays scalar.
 template <class Shader, class IndexOf, class Ahead>
 DEFERRED_SHADE_FLATTEN void run_packed(Shader const& shader, std::size_t count, IndexOf index_of,
                                        Ahead ahead) {
@@ -64,8 +62,8 @@ DEFERRED_SHADE_FLATTEN void run_packed(Shader const& shader, std::size_t count, 
   lanes<request, packed_lanes<Shader>> requests;
   lanes<result, packed_lanes<Shader>> results;
   std::size_t packed = 0;
-  // Four at a time where they stay in memory; a source that is a function may reuse what it refers
-  // to, and its code would be there five times.
+  // Four at a time if the source is a pointer. The code of a source that is a function would be
+  // there five times, and it may return a reference that its next call overwrites.
   using source = decltype(shader.source);
   if constexpr (std::is_same_v<source, request const*> || std::is_same_v<source, request*>) {
     auto const at = [&](std::size_t j) -> request const& { return shader.source[index_of(j)]; };
@@ -86,8 +84,8 @@ DEFERRED_SHADE_FLATTEN void run_packed(Shader const& shader, std::size_t count, 
   for (std::size_t j = 0; j < count; ++j) detail::store(shader.sink, index_of(j), results.get(j));
 }
 
-/// Runs one shader on the requests `index_of(j)` for j from 0 to `count` - 1, and calls `ahead(j)`
-/// once for each, which may prefetch what comes later.
+/// Runs one shader on the requests `index_of(j)` for j from 0 to `count` - 1. Calls `ahead(j)` once
+/// for each, to prefetch later requests.
 template <class Shader, class IndexOf, class Ahead>
 void run_segment(Shader const& shader, std::size_t count, IndexOf index_of, Ahead ahead) {
   if constexpr (is_packable<Shader>) {

@@ -27,8 +27,9 @@ void for_each_tile(Policy const& exec, request_index n, Function f) {
   });
 }
 
-/// The requests of one tile in the order of their shaders: `order[offsets[k]]` and what follows, up
-/// to `offsets[k + 1]`, are the requests of shader k, as distances from the first of the tile.
+/// The requests of one tile in the order of their shaders. Those of shader k are
+/// `order[offsets[k]]` to `order[offsets[k + 1] - 1]`, as distances from the first request of the
+/// tile.
 template <shader_id Shaders, request_index Tile>
 struct sorted_tile {
   static_assert(Tile <= 65536, "deferred_shade: a position in a tile must fit in 16 bits");
@@ -36,8 +37,8 @@ struct sorted_tile {
   std::uint32_t offsets[Shaders + 2];
 };
 
-/// Sorts the `size` requests from `first` on by a stable counting sort. A function of its own: what
-/// it takes of the stack is free again when shaders run.
+/// Sorts the `size` requests from `first` on by a stable counting sort. Not inlined: its stack
+/// frame is gone when shaders run.
 template <class Tuning, shader_id Shaders, request_index Tile, class Ids>
 DEFERRED_SHADE_NOINLINE void counting_sort(Ids const& ids, request_index first, request_index size,
                                            sorted_tile<Shaders, Tile>& result) {
@@ -45,7 +46,7 @@ DEFERRED_SHADE_NOINLINE void counting_sort(Ids const& ids, request_index first, 
   detail::load_keys<Shaders>(ids, first, size, keys);
   key_counts<Shaders, Tuning::counted_parts(Shaders), compared_bytes<Shaders, Tuning>> counts;
   counts.add(keys, size);
-  // Where the next request of shader k goes to is where those of k + 1 begin when all are placed.
+  // `next[k]` is `offsets[k + 1]`: when all requests are placed, it is where those of shader k end.
   std::uint32_t* const next = result.offsets + 1;
   result.offsets[0] = next[0] = 0;
   for (shader_id k = 0; k < Shaders; ++k) next[k + 1] = next[k] + counts.of(k);
@@ -56,12 +57,11 @@ DEFERRED_SHADE_NOINLINE void counting_sort(Ids const& ids, request_index first, 
   }
 }
 
-/// Where the stretch of neighbours that name the same shader ends that begins at `begin`: at `end`
-/// at the latest.
+/// The end of the stretch of requests from `begin` on that name the same shader, at most `end`.
 template <class Ids>
 request_index end_of_stretch(Ids const& ids, request_index begin, request_index end,
                              shader_id none) {
-  constexpr request_index step = 32;  // at a time: compilers make vectors of it
+  constexpr request_index step = 32;  // at a time, in a loop that compilers vectorise
   shader_id const id = detail::shader_of(ids, begin, none);
   for (; end - begin >= step; begin += step) {
     Ids const here = detail::ids_from(ids, begin);
@@ -73,8 +73,8 @@ request_index end_of_stretch(Ids const& ids, request_index begin, request_index 
   return begin;
 }
 
-/// Runs a tile as it lies, if neighbours mostly name the same shader: there is little to gain from
-/// sorting it. Returns whether it did.
+/// Runs a tile unsorted if neighbours mostly name the same shader: sorting gains little then.
+/// Returns whether it did.
 template <class Tuning, class Ids, class... Shaders>
 bool run_long_stretches(Ids const& ids, request_index first, request_index size,
                         shader_table<Shaders...> const& shaders) {
@@ -98,7 +98,7 @@ bool run_long_stretches(Ids const& ids, request_index first, request_index size,
 }
 
 /// Sorts `Size` keys, a power of two, by Batcher's bitonic network ("Sorting networks and their
-/// applications", AFIPS 1968): the same comparisons for every input, so that lanes never diverge.
+/// applications", AFIPS 1968). It makes the same comparisons for every input: lanes never diverge.
 template <std::size_t Size>
 void bitonic_sort(std::uint32_t (&keys)[Size]) {
   static_assert((Size & (Size - 1)) == 0,
@@ -146,7 +146,7 @@ void run_counted_tiles(Policy const& exec, request_index n, Ids ids,
         if (detail::run_long_stretches<Tuning>(ids, first, size, shaders)) return;
         sorted_tile<sizeof...(Shaders), Tuning::tile> tile;
         detail::counting_sort<Tuning>(ids, first, size, tile);
-        // The next tile, which mostly is the same worker's, in the order in which it lies.
+        // Prefetches the next tile, which mostly is the same worker's, in memory order.
         std::size_t next = std::size_t{first} + size;
         shaders.for_each([&](auto id, auto const& shader) {
           std::uint16_t const* const order = tile.order + tile.offsets[id];
@@ -164,7 +164,7 @@ void run_counted_tiles(Policy const& exec, request_index n, Ids ids,
       });
 }
 
-/// Sorts every tile as tuning says.
+/// Runs every tile by the sort that tuning chooses.
 template <class Policy, class Ids, class... Shaders, class Workspace>
 void run_tiles(host_system here, counting, Policy const& exec, request_index n, Ids ids,
                shader_table<Shaders...> const& shaders, Workspace const& scratch) {
@@ -176,7 +176,7 @@ void run_tiles(host_system here, counting, Policy const& exec, request_index n, 
   }
 }
 
-/// A CPU runs tables of any size in windows, which are its tiles: they take no workspace.
+/// On a CPU, windows are the tiles, for tables of any size. They take no workspace.
 constexpr std::size_t window_bytes(host_system, std::size_t, std::size_t) { return 0; }
 
 template <class Workspace>

@@ -8,55 +8,56 @@
 #include <deferred_shade/config.hpp>
 #include <deferred_shade/types.hpp>
 
-// Every size and threshold of the algorithms for CPUs, with what decided it: measured on a Xeon of
+// Every size and threshold of the algorithms for CPUs, and what decided it. Measured on a Xeon of
 // two cores and an EPYC with AVX2 and AVX-512 (docs/design.md, "Vectors on CPUs" and "Grouping on a
 // CPU"; docs/results/cpu.md).
 
 namespace deferred_shade {
 namespace detail {
 
-/// Where something is prefetched to: the caches of a core, as the compilers' built-in function
-/// counts them.
+/// The cache of a core to prefetch into, by the numbers of __builtin_prefetch.
 enum class cache { none, second_level = 2, first_level = 3 };
 
 // Blocks. A worker owns one at a time.
-/// Blocks are large enough that a parallel loop over them costs little beside their work.
+/// Requests in a block, at least: a parallel loop over blocks then costs little beside their work.
 inline constexpr std::size_t least_block = 16384;
-/// More would make the scan over their counters, which one worker does, a part of the time.
+/// Blocks in a batch, at most: with more, the scan over their counters, which one worker does,
+/// takes noticeable time.
 inline constexpr std::size_t most_blocks = 1024;
-/// A row of counters is at most a sixteenth as long as what it counts: the scan costs no more.
+/// Requests of a block for each of its counters, at least: it bounds the cost of the scan.
 inline constexpr std::size_t requests_per_counter = 16;
 
 // Loops over requests.
-/// So few run without a parallel region, which takes five microseconds with OpenMP: as many as the
-/// smallest chunk of a segment.
+/// Up to this many requests run without a parallel region, which takes five microseconds with
+/// OpenMP. As many as the smallest chunk of a segment.
 inline constexpr std::size_t serial_requests = 32;
-/// TBB's workers take the next chunk that is left: of at most so many requests, and at least so
-/// many chunks.
+/// TBB's workers take the next chunk that is left. A chunk has at most this many requests, and a
+/// large batch about this many chunks or more.
 inline constexpr std::size_t largest_chunk = 4096;
 inline constexpr std::size_t chunks_by_tbb = 1024;
 
-// Records in vectors. As many are packed at a time as take, with their results, half of a
-// first-level cache of 32 KiB, and at most 256: more gain nothing.
+// Records in vectors. Those that are packed together take, with their results, at most half of a
+// first-level cache of 32 KiB. They are at most 256: more gain nothing.
 inline constexpr std::size_t packed_bytes = 16384;
 inline constexpr std::size_t most_packed = 256;
 
-/// A segment of fewer requests is launched in small chunks, for every worker to have some.
+/// A segment of fewer requests is launched in small chunks, to give every worker some.
 inline constexpr std::size_t small_segment = 16384;
 inline constexpr std::size_t small_chunk = 32;
 
-/// The keys that are counted at a time if they are compared, and if they are looked at one by one.
+/// Keys that are counted at a time by comparing vectors.
 inline constexpr std::size_t compared_chunk = 4096;
-/// The keys that are put to their places at a time: the first-level cache is for the lines that are
-/// written (16 Mi requests of 256 shaders: 1.24 ns each with 4096, 1.14 with 512).
+/// Keys that are counted one by one, or put to their places, at a time: the first-level cache is
+/// for the lines that are written (16 Mi requests of 256 shaders: 1.24 ns each with 4096, 1.14 ns
+/// with 512).
 inline constexpr std::size_t place_chunk = 512;
-/// How far behind a place is prefetched: two lines; five if eight requests go there at a time
-/// (256 shaders in runs of 32: 45 ms became 33).
+/// How far behind a place to prefetch: two cache lines; five if eight requests go there at a time
+/// (256 shaders in runs of 32: 33 ms instead of 45).
 inline constexpr std::size_t prefetched_bytes = 128;
 inline constexpr std::size_t prefetched_bytes_by_eight = 320;
 
 #if DEFERRED_SHADE_HAS_GNU
-// No wider than the instructions are: g++ takes wider ones apart byte by byte.
+// No wider than the instruction set: g++ takes wider vectors apart byte by byte.
 #ifdef __AVX2__
 inline constexpr std::size_t vector_bytes = 32;
 #else
@@ -68,36 +69,36 @@ inline constexpr std::size_t vector_bytes = 0;  // no vector types
 
 }  // namespace detail
 
-/// What schedules ask on a CPU. A renderer that knows better derives from it and says so for a
-/// call: see `tuned`.
+/// The choices of schedules on a CPU. A renderer may derive from it and change them for a call: see
+/// `tuned`.
 struct cpu_tuning {
-  /// Requests in a tile of local_sort_then_dispatch: their ids and indices, 25 KiB, fit in the
+  /// Requests in a tile of local_sort_then_dispatch. Their ids and indices, 25 KiB, fit in the
   /// first- and second-level cache of a core.
   static constexpr request_index tile = 8192;
 
-  /// A tile whose neighbours name the same shader in stretches of so many on average is run as it
-  /// lies: there is little to gain from sorting it.
+  /// A tile whose stretches of equal ids have at least this many requests on average is not sorted:
+  /// there is little to gain.
   static constexpr request_index long_stretch = 64;
 
   /// Whether keys are counted by comparing vectors of `bytes` keys with every shader in turn. For
-  /// few shaders that is less work than a look at each key (11 shaders: 0.10 ns a request, not
-  /// 0.34).
+  /// few shaders that is less work than counting keys one by one (11 shaders: 0.10 ns a request
+  /// instead of 0.34 ns).
   static constexpr bool compares_keys(shader_id shaders, std::size_t bytes) {
     return shaders <= bytes;
   }
 
-  /// The parts of a sequence that are counted by turns. Neighbours often are the same, and one
-  /// increment waits for the other (mean run 8: 1.5 ns a request became 0.9); but the counters are
-  /// to stay in the first-level cache.
+  /// The parts of a sequence that are counted in turns. Neighbours are often the same, and an
+  /// increment then waits for the one before (mean run 8: 0.9 ns a request instead of 1.5 ns). But
+  /// the counters of all parts should stay in the first-level cache.
   static constexpr request_index counted_parts(shader_id shaders) { return shaders < 512 ? 8 : 1; }
 
-  /// Whether local_sort_then_dispatch sorts tiles by counting; else by the bitonic network. More
-  /// counters than this would not fit in 64 KiB of a worker's stack, and a tile has few requests of
-  /// each shader then.
+  /// Whether local_sort_then_dispatch sorts tiles by counting; else by the bitonic network. With
+  /// more shaders, the counters would not fit in 64 KiB of a worker's stack, and a tile has few
+  /// requests of each shader.
   static constexpr bool counts_tiles(shader_id shaders) { return shaders < 1024; }
 
-  /// Where places of a bucket are prefetched to. The first-level cache has room for what lies ahead
-  /// of 64 shaders: 0.83 ns a request instead of 1.10 with 11. It overflows with 255.
+  /// The cache into which the places of buckets are prefetched. The first-level cache has room for
+  /// 64 shaders (11 shaders: 0.83 ns a request instead of 1.10 ns). It overflows with 255.
   static constexpr detail::cache ahead_of_places(shader_id shaders) {
     return shaders <= 64 ? detail::cache::first_level : detail::cache::second_level;
   }

@@ -12,8 +12,9 @@
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
-/// How a kernel begins whose blocks own tiles of up to `Size` requests of a batch of `n`: finds the
-/// first request of this block's tile and how many there are. False if the batch ends before it.
+/// Begins a kernel whose blocks own tiles of up to `Size` requests, of a batch of `n`. Finds the
+/// first request of this block's tile and their number. Returns false if the batch ends before the
+/// tile.
 template <std::uint32_t Size, class Count>
 __device__ bool begin_tile(Count n, request_index& first, std::uint32_t& size) {
   detail::begin_after_earlier_kernels();

@@ -10,10 +10,10 @@
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/types.hpp>
 
-// Every tile counts its shaders; a scan over the counts of all tiles, shader by shader, turns them
-// into places; every tile is sorted in shared memory and each shader's requests are written next to
-// those of the tile before. Tiles run in the order in which they lie, so that what is written at
-// one time lies together in memory.
+// A kernel counts the shaders of every tile. A scan over the counts of all tiles, shader by shader,
+// turns them into places. A kernel sorts every tile in shared memory, and writes each shader's
+// requests next to those of the tile before. Tiles run in memory order: writes of about the same
+// time lie together in memory.
 
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {

@@ -11,12 +11,12 @@
 #include <deferred_shade/detail/cuda/warp.hpp>
 #include <deferred_shade/types.hpp>
 
-// The tiles that buckets are made of, and how a thread block counts the requests of one.
+// The tiles of the bucket sort, and how a thread block counts the requests of one.
 
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
-/// The requests that a thread block owns: all but the last block have `bucket_tile` of them.
+/// The requests that a thread block owns: `bucket_tile` of them, except in the last block.
 struct tile_of_block {
   request_index first;
   std::uint32_t size;
@@ -36,7 +36,7 @@ struct tile_of_block {
   }
 
   /// The same in four bits each and in any order, for tables of at most 15 shaders. Requests
-  /// without a shader get some id outside of the table.
+  /// without a shader get an arbitrary id outside of the table.
   template <shader_id Shaders, class Ids>
   __device__ four_bit_keys load_four_bit_neighbours_of_thread(Ids const& ids) const {
     if constexpr (std::is_pointer_v<Ids> && std::is_convertible_v<Ids, std::uint8_t const*>) {
@@ -57,8 +57,8 @@ struct tile_of_block {
 
 /// The counts of a tile's shaders.
 ///
-/// Every thread has a byte per shader to itself, in a column of shared memory that is one bank
-/// wide: no two lanes ever meet, whatever the ids. Up to 15 shaders, it has them in registers.
+/// Every thread has its own byte for each shader, in a column of shared memory that is one bank
+/// wide: lanes never conflict, whatever the ids. Up to 15 shaders, the counts are in registers.
 template <shader_id Shaders>
 class tile_counts {
   static constexpr std::uint32_t words = Shaders / 4 + 1;
@@ -66,7 +66,7 @@ class tile_counts {
                 "deferred_shade: the counts of all warps must fit in a byte");
 
  public:
-  /// Counts a tile, and calls `write(k, count)` for every shader by some thread of the block.
+  /// Counts a tile. Some thread of the block calls `write(k, count)` for every shader.
   template <class Ids, class Write>
   __device__ void count(Ids const& ids, tile_of_block tile, Write const& write) {
     std::uint32_t const lane = threadIdx.x % warp_size;
@@ -99,8 +99,8 @@ class tile_counts {
         ++reinterpret_cast<std::uint8_t*>(&memory_[key / 4][threadIdx.x])[key % 4];
       }
       __syncthreads();
-      // A warp takes one word of four bytes: sums of all warps fit in bytes, of all lanes in
-      // halves.
+      // A warp takes one word of four bytes. Sums over all warps fit in bytes, sums over all lanes
+      // in 16 bits.
       for (std::uint32_t word = warp; word < words; word += bucket_warps) {
         std::uint32_t sum = 0;
 #pragma unroll

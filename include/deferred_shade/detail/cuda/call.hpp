@@ -7,9 +7,9 @@
 #include <deferred_shade/record_shaders.hpp>
 #include <deferred_shade/types.hpp>
 
-// How kernels call what is the renderer's: shaders, functions of records, sources and sinks. These
-// functions run on the device alone, for nvcc to refuse a shader without __device__. In a function
-// for both host and device, it is told not to look, and such a shader would do nothing.
+// How kernels call the renderer's shaders, functions of records, sources and sinks. These functions
+// are for the device alone, and nvcc refuses a shader without __device__ in them. In a host/device
+// function it is told not to check, and such a shader would do nothing.
 
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
@@ -32,7 +32,7 @@ __device__ void store_on_device(Sink const& sink, request_index i, Result const&
   }
 }
 
-/// Runs a shader on request i: what shader(i) does.
+/// Runs a shader on request i, as shader(i) does.
 template <class Shader>
 __device__ void call_on_device(Shader const& shader, request_index i) {
   if constexpr (is_record_shader<Shader>) {
@@ -43,7 +43,7 @@ __device__ void call_on_device(Shader const& shader, request_index i) {
   }
 }
 
-/// For shader_list::visit: runs the shader of that id on request i.
+/// For shader_list::visit: runs the visited shader on request i.
 struct run_on_device {
   request_index i;
   template <class Shader>

@@ -31,8 +31,7 @@ struct names_shader {
   }
 };
 
-/// Adds a number that lies in device memory: the offset of a segment, where the host does not know
-/// it.
+/// Adds a number in device memory: the offset of a segment, which the host does not know.
 struct add_offset {
   request_index const* offset;
   __host__ __device__ request_index operator()(request_index i) const { return *offset + i; }
@@ -49,7 +48,8 @@ struct shader_bits {
   __device__ bool operator[](shader_id k) const { return (words[k / 32] >> k % 32 & 1U) != 0; }
 };
 
-/// Lets the segments of shaders that were not compacted begin and end where the one before ends.
+/// Makes the segments of shaders that were not compacted empty: they begin and end where the one
+/// before ends.
 template <shader_id Shaders>
 __global__ void empty_segments_kernel(request_index* offsets, shader_bits<Shaders> compacted) {
   detail::begin_after_earlier_kernels();
@@ -67,8 +67,8 @@ grouping compact_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Wor
   cudaStream_t const stream = detail::stream_of(exec);
   detail::forget_earlier_error();
   thrust::counting_iterator<request_index> const requests(0);
-  // The segment of a shader begins at `*begin`, where the one before ends: its launch has written
-  // that.
+  // The segment of a shader begins at `*begin`, the end of the one before, which an earlier launch
+  // has written.
   auto const select_shader = [&](void* memory, std::size_t& bytes, shader_id k,
                                  request_index* permutation, request_index const* begin,
                                  request_index* end_at) {

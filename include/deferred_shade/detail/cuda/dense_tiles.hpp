@@ -16,8 +16,8 @@
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
-/// Sorts one tile and runs the switch over it, shader next to shader: warps diverge where one ends
-/// and the next begins, and nowhere else.
+/// Sorts one tile and runs the switch over the sorted requests. Warps diverge only where the
+/// requests of one shader end and those of the next begin.
 template <std::uint32_t Threads, std::uint32_t Items, class Count, class Ids, class... Shaders>
 __global__ void __launch_bounds__(Threads)
     dense_kernel(Count n, Ids ids, shader_list<Shaders...> const __grid_constant__ shaders) {
@@ -57,10 +57,10 @@ void launch_dense(Policy const& exec, Count n, Ids ids, shader_table<Shaders...>
       n, ids, shaders);
 }
 
-// The unused bytes of a sector wait in the second-level cache for neighbouring requests of the
+// Unused bytes of a fetched sector stay in the second-level cache for neighbouring requests of the
 // tile. With one request for each thread, no more requests are under way than in a plain switch,
-// and the cache has room. With several, warps are fuller: that is for batches which all run at once
-// then.
+// and the cache has room. With several, warps are fuller: they are used if all of the batch then
+// runs at once.
 template <class Tuning, class Policy, class Count, class Ids, class... Shaders>
 void run_dense_tiles(Policy const& exec, Count n, Ids ids,
                      shader_table<Shaders...> const& shaders) {

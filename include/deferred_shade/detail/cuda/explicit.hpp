@@ -29,8 +29,8 @@ __global__ void masked_kernel(bool first, Count n, Ids ids, Shader const __grid_
     detail::call_on_device(shader, i);
 }
 
-/// Runs one shader on its segment. The grid does not know how long that is: a block takes one
-/// stretch after another until none is left.
+/// Runs one shader on its segment. The host does not know its length: the threads of the grid
+/// stride over the segment until its end.
 template <class Shader>
 __global__ void segment_kernel(bool first, request_index const* permutation,
                                request_index const* offset, Shader const __grid_constant__ shader) {
@@ -41,7 +41,7 @@ __global__ void segment_kernel(bool first, request_index const* permutation,
   for (; p < end; p += stride) detail::call_on_device(shader, permutation[p]);
 }
 
-/// The kernels of a table, a launch for each shader.
+/// The launches of masked_kernel, one for each shader.
 template <class Count, class Ids, class... Shaders>
 struct masked_launches {
   std::size_t maximum;
@@ -64,7 +64,8 @@ struct segment_launches {
   template <shader_id, class Shader>
   static constexpr auto kernel = &segment_kernel<Shader>;
 
-  /// Enough for an equal share of the requests, and to fill the device if one shader has them all.
+  /// Enough blocks for an equal share of the requests, and to fill the device if one shader has
+  /// them all.
   template <shader_id Id, class Shader>
   launch_shape shape() const {
     auto const [threads, resident] =
@@ -74,9 +75,9 @@ struct segment_launches {
   }
 };
 
-/// Calls `launch_one(id, shader, shape, first)` for all shaders that may occur. All must fit a grid
-/// before the first one runs. (Asked once for each: what a host does for a launch takes as long as
-/// what a GPU does for a short shader.)
+/// Calls `launch_one(id, shader, shape, first)` for all shaders that may occur, after checking that
+/// all launches fit in a grid. (Shapes are computed once: the host's work for a launch takes as
+/// long as a short shader on the GPU.)
 template <class Launches, class... Shaders, class Workspace, class Launch>
 void launch_each(Launches const& launches, shader_table<Shaders...> const& shaders,
                  Workspace const& scratch, Launch const& launch_one) {

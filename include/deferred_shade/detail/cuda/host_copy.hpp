@@ -13,12 +13,13 @@
 #include <deferred_shade/detail/cuda/tuning.hpp>
 #include <deferred_shade/types.hpp>
 
-// For reports, which the host makes: copies of what lies on a CUDA device.
+// Copies from a CUDA device, for reports that the host computes.
 
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
-/// The number of requests, once the stream has come to it; as checked_count, with what it throws.
+/// The number of requests, read when the work on the stream is done. Throws what checked_count
+/// throws.
 template <class Integer>
 request_index count_on_host(std::string const& caller, cudaStream_t, Integer n) {
   return detail::checked_count(caller, n);
@@ -39,11 +40,11 @@ __global__ void copy_ids_kernel(std::size_t n, Ids ids, shader_id* copy) {
   detail::begin_after_earlier_kernels();
   std::size_t const i = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   if (i >= n) return;
-  constexpr auto none = static_cast<shader_id>(-1);  // which no table reaches
+  constexpr auto none = static_cast<shader_id>(-1);  // no table is that large
   copy[i] = detail::shader_of(ids, static_cast<request_index>(i), none);
 }
 
-/// The id of each of `n` requests.
+/// A copy of the ids of `n` requests. Waits for the stream.
 template <class Ids>
 std::vector<shader_id> ids_on_host(cudaStream_t stream, std::size_t n, Ids ids) {
   std::vector<shader_id> copy(n);

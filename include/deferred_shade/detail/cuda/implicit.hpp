@@ -32,9 +32,9 @@ __global__ void switch_kernel(Count n, Ids ids,
   }
 }
 
-/// The same for record shaders: all lanes load their requests at a time and store their results at
-/// a time, and only the functions take turns. `one_place`: the shaders' sources are the same, and
-/// so are their sinks; else loads and stores take turns as well.
+/// The same for record shaders. All lanes load their requests together and store their results
+/// together; only the functions diverge. `one_place`: all shaders have the same source and the same
+/// sink. Otherwise loads and stores diverge as well.
 template <class Count, class Ids, class... Shaders>
 __global__ void records_kernel(Count n, Ids ids,
                                shader_list<Shaders...> const __grid_constant__ shaders,
@@ -80,12 +80,12 @@ __global__ void segments_kernel(request_index const* permutation, request_index 
   shaders.visit(static_cast<shader_id>(id), run_on_device{permutation[p]});
 }
 
-/// Whether the shaders of a table load from one place and store to one.
+/// Whether all shaders of a table have the same source and the same sink.
 template <class... Shaders>
 bool have_one_place(shader_table<Shaders...> const& shaders) {
   auto const same = [](auto const& a, auto const& b) {
     return std::memcmp(detail::address_of(a), detail::address_of(b), sizeof(a)) ==
-           0;  // for all their types may lack a comparison
+           0;  // their types may lack a comparison
   };
   auto const& first = shaders.template get<0>();
   bool result = true;

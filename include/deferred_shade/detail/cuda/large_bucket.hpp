@@ -14,13 +14,13 @@
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
 
-// Buckets for a larger table: a thread block owns a tile.
+// Buckets for tables of up to 511 shaders: a thread block counts a tile in shared memory.
 
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
-/// counts[k * tiles + t] becomes the number of requests of shader k in tile t. A thread takes
-/// neighbouring requests and adds once for each stretch of equal ids.
+/// Sets counts[k * tiles + t] to the number of requests of shader k in tile t. A thread takes
+/// neighbouring requests and adds once for each run of equal ids.
 template <shader_id Shaders, class Count, class Ids>
 __global__ void __launch_bounds__(bucket_threads)
     large_bucket_count_kernel(Count n, Ids ids, std::uint32_t* counts) {
@@ -44,8 +44,9 @@ __global__ void __launch_bounds__(bucket_threads)
   }
 }
 
-/// Puts the requests of every tile to their places: `places[k * tiles + t]` is the one of the first
-/// request of shader k in tile t, and the last element is the number of all that have a shader.
+/// Puts the requests of every tile to their places. `places[k * tiles + t]` is the place of the
+/// first request of shader k in tile t; the last element is the number of requests that have a
+/// shader.
 template <shader_id Shaders, class Count, class Ids>
 __global__ void __launch_bounds__(bucket_threads,
                                   blocks_that_fit(large_place_blocks, bucket_threads))

@@ -25,8 +25,8 @@ cudaStream_t stream_of(Policy const& exec) {
   return thrust::cuda_cub::stream(policy);
 }
 
-/// The number of requests, where a kernel reads it. The host cannot see what a device_count points
-/// at, so that it is taken into 0 to its maximum here.
+/// The number of requests, for a kernel. A device_count, which the host cannot check, is clamped to
+/// 0 to its maximum.
 __device__ inline request_index size_of(request_index n) { return n; }
 template <class Integer>
 __device__ request_index size_of(device_count<Integer> n) {
@@ -38,12 +38,12 @@ __device__ request_index size_of(device_count<Integer> n) {
   return static_cast<request_index>(positive < n.maximum ? positive : n.maximum);
 }
 
-/// What a launch asks for. A grid of no blocks is not launched.
+/// The grid and the resources of a launch. A grid without blocks is not launched.
 struct launch_shape {
   std::size_t blocks = 0;
   std::uint32_t threads = 0;
   std::size_t shared_bytes = 0;
-  bool prefers_cache = false;  ///< to shared memory, where both come out of one memory
+  bool prefers_cache = false;  ///< to shared memory, if both share one memory
 };
 
 /// The number of the current device.
@@ -53,8 +53,8 @@ inline int current_device() {
   return device;
 }
 
-/// Whether any code of this translation unit was compiled for GPUs on which kernels overlap. (A
-/// kernel that is optimised when it is linked says for which architecture it was linked.)
+/// Whether any code of this translation unit was compiled for GPUs on which kernels overlap. (With
+/// link-time optimisation, a kernel's attributes give the architecture that it was linked for.)
 constexpr bool is_compiled_for_overlap() {
 #ifdef __CUDA_ARCH_LIST__
   for (int const architecture : {__CUDA_ARCH_LIST__}) {
@@ -64,9 +64,9 @@ constexpr bool is_compiled_for_overlap() {
   return false;
 }
 
-/// Whether `Kernel` may start before the work ahead of it is done: on GPUs that can, if its code
-/// was compiled for them and waits by itself. Asked of CUDA once per thread of the host, and again
-/// if its device changes.
+/// Whether `Kernel` may start before the work ahead of it is done: on GPUs that can do that, if its
+/// code was compiled for them and so waits explicitly. Asks CUDA once per host thread, and again if
+/// its device changes.
 template <auto Kernel>
 bool may_start_early() {
   thread_local int known_device = -1;
@@ -83,7 +83,8 @@ bool may_start_early() {
   return known;
 }
 
-/// Throws if no grid has so many blocks. Called for all launches of a batch before the first one.
+/// Throws if a launch has more blocks than a grid can have. Called for all launches of a batch
+/// before the first one.
 inline void check_grid(char const* what, launch_shape shape) {
   constexpr std::size_t most = 0x7fffffff;
   if (shape.blocks <= most) return;
@@ -94,14 +95,14 @@ inline void check_grid(char const* what, launch_shape shape) {
   detail::check_cuda(cudaErrorInvalidConfiguration, doing.c_str());
 }
 
-/// Launches `Kernel` on `stream`; throws where CUDA refuses: `what` says which one it was. `Kernel`
-/// waits for the work ahead of it: see overlap.hpp.
+/// Launches `Kernel` on `stream`. Throws cuda_error, which names `what`, if CUDA refuses. `Kernel`
+/// must wait for the work ahead of it: see overlap.hpp.
 template <auto Kernel, class... Arguments>
 void launch(char const* what, cudaStream_t stream, launch_shape shape,
             Arguments const&... arguments) {
   if (shape.blocks == 0) return;
   detail::check_grid(what, shape);
-  if (shape.shared_bytes > 0) {  // with what the kernel has itself, it may be more than the default
+  if (shape.shared_bytes > 0) {  // with static shared memory, it may exceed the default limit
     detail::check_cuda(cudaFuncSetAttribute(Kernel, cudaFuncAttributeMaxDynamicSharedMemorySize,
                                             static_cast<int>(shape.shared_bytes)),
                        what);
@@ -124,12 +125,12 @@ void launch(char const* what, cudaStream_t stream, launch_shape shape,
   detail::check_cuda(cudaLaunchKernelEx(&config, Kernel, arguments...), what);
 }
 
-/// The blocks of `threads` that hold `n` threads.
+/// The number of blocks of `threads` threads that hold `n` threads.
 constexpr std::size_t blocks_for(std::size_t n, std::uint32_t threads) {
   return (n + threads - 1) / threads;
 }
 
-/// The multiprocessors of the current device.
+/// The number of multiprocessors of the current device.
 inline std::size_t multiprocessors() {
   int count = 0;
   detail::check_cuda(

@@ -13,7 +13,7 @@
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
-/// Ids that lie in memory, or are made one by one of what lies there.
+/// Ids that lie in memory, or are each computed from an element of an array there.
 template <class Ids>
 struct ids_in_memory {
   static constexpr bool possible = false;
@@ -30,17 +30,17 @@ struct ids_in_memory<Id*> {
 };
 template <class Function, class Id>
 struct ids_in_memory<thrust::transform_iterator<Function, Id*, shader_id, shader_id>> {
-  static constexpr bool possible = std::is_integral_v<Id> || std::is_enum_v<Id>;  // else records
+  static constexpr bool possible = std::is_integral_v<Id> || std::is_enum_v<Id>;  // not records
   using iterator = thrust::transform_iterator<Function, Id*, shader_id, shader_id>;
   using stored = std::remove_cv_t<Id>;
   static __device__ stored const* pointer(iterator ids) { return ids.base(); }
   static __device__ shader_id made_of(iterator ids, stored id) { return ids.functor()(id); }
 };
 
-/// The shaders of `Items` neighbouring requests, of which `size` exist: keys[i] is the shader of
-/// request `first + i`, or `Shaders` where it names none or does not exist.
+/// Loads the shaders of `Items` neighbouring requests, of which `size` exist. keys[i] is the shader
+/// of request `first + i`, or `Shaders` if it names none or does not exist.
 ///
-/// Ids that lie in memory are loaded 16 bytes at a time where their address allows it.
+/// Ids that lie in memory are loaded 16 bytes at a time if they are aligned.
 template <shader_id Shaders, std::uint32_t Items, class Ids>
 __device__ void load_neighbours(Ids const& ids, request_index first, std::uint32_t size,
                                 std::uint32_t (&keys)[Items]) {
@@ -59,7 +59,7 @@ __device__ void load_neighbours(Ids const& ids, request_index first, std::uint32
 #pragma unroll
           for (std::uint32_t i = 0; i < per_vector; ++i) {
             shader_id key;
-            if constexpr (std::is_same_v<id, std::uint8_t>) {  // one instruction less for each
+            if constexpr (std::is_same_v<id, std::uint8_t>) {  // saves an instruction for each
               key = memory::made_of(ids, __byte_perm(words[i / 4], 0, 0x4440 + i % 4));
             } else {
               key = static_cast<shader_id>(memory::made_of(ids, loaded[i]));
@@ -77,8 +77,8 @@ __device__ void load_neighbours(Ids const& ids, request_index first, std::uint32
   }
 }
 
-/// The same for rows: keys[i] is the shader of request `first + i * 32`, for the lane whose first
-/// request is `first`, and `size` requests exist from there on.
+/// The same for rows. keys[i] is the shader of request `first + i * 32`; `first` is the first
+/// request of this lane, and `size` requests exist from there on.
 template <shader_id Shaders, std::uint32_t Items, class Ids>
 __device__ void load_rows(Ids const& ids, request_index first, std::uint32_t size,
                           std::uint32_t (&keys)[Items]) {

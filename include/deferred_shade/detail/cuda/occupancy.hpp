@@ -19,9 +19,9 @@ struct kernel_occupancy {
   std::size_t resident_blocks;  ///< on all multiprocessors together
 };
 
-/// The occupancy of `Kernel` on the current device: with `threads` per block, or, if that is 0,
-/// with as many as fill the device best. Asked of CUDA once per thread of the host, and again if
-/// its device or `threads` changes.
+/// The occupancy of `Kernel` on the current device, with `threads` per block. 0 stands for the
+/// number, up to explicit_threads, that maximises occupancy. Asks CUDA once per host thread, and
+/// again if its device or `threads` changes. Throws cuda_error if no block fits.
 template <auto Kernel>
 kernel_occupancy occupancy_of(int threads) {
   thread_local int known_device = -1;

@@ -3,41 +3,41 @@
 
 #include <deferred_shade/detail/cuda/architectures.hpp>
 
-// Kernels of one stream that overlap, from compute capability 9.0 on ("programmatic dependent
-// launch" in CUDA's guide): the blocks of a kernel move in while the last blocks of the one ahead
-// still run. So each kernel that launch() starts waits by itself: before it reads what an earlier
-// kernel writes, and at the latest before it ends. On other GPUs both functions do nothing.
+// Kernels of one stream overlap from compute capability 9.0 on ("programmatic dependent launch" in
+// CUDA's guide): blocks of a kernel start while the last blocks of the one ahead still run. So each
+// kernel that launch() starts must wait explicitly, before it reads results of earlier kernels and
+// no later than its end. On other GPUs these functions do nothing.
 //
 // The first kernel of a call to shade() waits before it lets the next one start. So what the
-// renderer wrote before the call is done when any of them runs, and those behind wait for each
-// other's results alone. They also see it, because every launch drops what the first-level caches
-// hold. CUB's kernels rely on that as well.
+// renderer wrote before the call is complete when any of them runs, and the others wait only for
+// each other's results. They also see what it wrote, because every launch invalidates the
+// first-level caches. CUB's kernels rely on that as well.
 
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
-/// Returns when everything ahead of this kernel on its stream is done, and what it wrote visible.
+/// Returns when all work ahead of this kernel on its stream is done, and its writes are visible.
 __device__ inline void wait_for_earlier_kernels() {
 #if __CUDA_ARCH__ >= 900
   asm volatile("griddepcontrol.wait;" ::: "memory");
 #endif
 }
 
-/// Lets the kernel behind this one on its stream start, once all blocks have come here.
+/// Lets the next kernel on the stream start, once all blocks of this one have called it.
 __device__ inline void let_next_kernel_start() {
 #if __CUDA_ARCH__ >= 900
   asm volatile("griddepcontrol.launch_dependents;" ::: "memory");
 #endif
 }
 
-/// How a kernel begins that needs all that was launched before it.
+/// Begins a kernel that needs all work launched before it.
 __device__ inline void begin_after_earlier_kernels() {
   detail::wait_for_earlier_kernels();
   detail::let_next_kernel_start();
 }
 
-/// One kernel of several that do not need each other: only the first waits for what was launched
-/// before them, and none is done before the one ahead of it.
+/// One of several kernels that do not need each other. Only the first waits for what was launched
+/// before them, and none ends before the one ahead of it.
 class independent_kernel {
  public:
   __device__ explicit independent_kernel(bool first) : first_(first) {

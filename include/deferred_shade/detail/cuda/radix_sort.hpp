@@ -16,8 +16,8 @@
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
-/// The pairs that are sorted. Requests at and behind the count take the key of those without a
-/// shader, so that they end up at the end.
+/// Writes the pairs to sort. Requests at and beyond the count get the key of those without a
+/// shader, and end up last.
 template <shader_id Shaders, class Key, class Count, class Ids>
 __global__ void radix_pairs_kernel(std::size_t maximum, Count n, Ids ids, Key* keys,
                                    request_index* indices) {
@@ -29,7 +29,7 @@ __global__ void radix_pairs_kernel(std::size_t maximum, Count n, Ids ids, Key* k
   indices[i] = i;
 }
 
-/// offsets[k] becomes the number of keys below k.
+/// Sets offsets[k] to the number of keys below k.
 template <shader_id Shaders, class Key>
 __global__ void radix_offsets_kernel(std::size_t size, Key const* keys, request_index* offsets) {
   detail::begin_after_earlier_kernels();

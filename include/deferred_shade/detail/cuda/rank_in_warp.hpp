@@ -10,8 +10,8 @@
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
-/// The lanes in whose `key` some bit of `mask` is set. (The compiler takes two instructions more
-/// for the same in C++.)
+/// The lanes whose `key` has a bit of `mask` set. (In C++, the compiler takes two more
+/// instructions.)
 __device__ inline std::uint32_t lanes_with_bit(std::uint32_t key, std::uint32_t mask) {
   std::uint32_t lanes;
   asm volatile(
@@ -27,7 +27,7 @@ __device__ inline std::uint32_t lanes_with_bit(std::uint32_t key, std::uint32_t 
   return lanes;
 }
 
-/// The lanes whose key is the number of this lane.
+/// The lanes whose key equals the number of this lane.
 template <shader_id Shaders>
 __device__ std::uint32_t lanes_with_my_key(std::uint32_t key) {
   std::uint32_t const lane = threadIdx.x % warp_size;
@@ -40,10 +40,10 @@ __device__ std::uint32_t lanes_with_my_key(std::uint32_t key) {
   return lanes;
 }
 
-/// Ranks the requests of a warp, in `Items` rows of 32, by the shader that they name: ranks[i] is
+/// Ranks the requests of a warp, in `Items` rows of 32, by the shader that they name. ranks[i] is
 /// the number of requests of the same shader before this lane's request in row i. Returns how many
-/// name the shader that this lane looks after, the one with its number. (Those that name none go to
-/// lane `Shaders`, if there is one.)
+/// name the shader of this lane, the one with its number. (Those that name none belong to lane
+/// `Shaders`, if there is one.)
 template <shader_id Shaders, std::uint32_t Items>
 __device__ std::uint32_t rank_in_warp(std::uint32_t const (&keys)[Items],
                                       std::uint32_t (&ranks)[Items]) {
@@ -53,8 +53,8 @@ __device__ std::uint32_t rank_in_warp(std::uint32_t const (&keys)[Items],
   std::uint32_t count = 0;
 #pragma unroll
   for (std::uint32_t row = 0; row < Items; ++row) {
-    // A lane learns which lanes name the shader that it looks after, and then asks the lane that
-    // looks after its own request's shader for the requests before it.
+    // Each lane finds the lanes that name its own shader. Then it asks the lane of its request's
+    // shader, the keeper, for the requests before its own.
     int const keeper = static_cast<int>(keys[row]);
     std::uint32_t const lanes = detail::lanes_with_my_key<Shaders>(keys[row]);
     std::uint32_t const peers = __shfl_sync(all_lanes, lanes, keeper);

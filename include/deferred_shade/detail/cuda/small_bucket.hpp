@@ -15,12 +15,12 @@
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
 
-// Buckets for a table of up to 32 shaders, each of which has a lane of every warp to look after it.
+// Buckets for tables of up to 32 shaders: each shader has a lane of every warp.
 
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
-/// Where the count of one shader in one tile lies.
+/// The position of the count of one shader in one tile.
 struct tile_count_layout {
   std::uint32_t shader_stride;
   std::uint32_t tile_stride;
@@ -39,15 +39,15 @@ __global__ void __launch_bounds__(bucket_threads)
                  [&](shader_id k, std::uint32_t count) { counts[layout(k, blockIdx.x)] = count; });
 }
 
-/// Sorts every tile and writes each request to where `Output` says that the requests of its shader
-/// and tile go.
+/// Sorts every tile and writes each request to the place that `Output` gives for its shader and
+/// tile.
 template <shader_id Shaders, class Count, class Ids, class Output>
 __global__ void __launch_bounds__(bucket_threads,
                                   blocks_that_fit(place_blocks(Shaders), bucket_threads))
     small_bucket_place_kernel(Count n, Ids ids, Output output) {
   __shared__ sorted_bucket_tile<Shaders> sorted;
   __shared__ typename Output::shared_memory shared;
-  // The kernel that counted has waited for what wrote the ids: only its own counts may still lack.
+  // The kernel that counted has waited for the ids: only its own counts may still be missing.
   detail::let_next_kernel_start();
   tile_of_block const tile(detail::size_of(n));
   auto const [start, used] = sorted.sort(ids, tile);
@@ -65,15 +65,15 @@ __global__ void __launch_bounds__(bucket_threads,
   }
 }
 
-/// Turns the counts of shader blockIdx.x into the number of its requests in the tiles before, and
-/// totals[k] into the number of all its requests.
+/// Turns each count of shader k = blockIdx.x into the number of its requests in earlier tiles, and
+/// sets totals[k] to the number of all its requests.
 template <std::uint32_t Threads = bucket_scan_threads>
 __global__ void __launch_bounds__(Threads)
     small_bucket_scan_kernel(std::uint32_t tiles, std::uint32_t* counts, std::uint32_t* totals) {
   using block_scan = cub::BlockScan<std::uint32_t, Threads>;
   constexpr std::uint32_t items = 4;
   __shared__ typename block_scan::TempStorage shared;
-  detail::let_next_kernel_start();  // as small_bucket_place_kernel
+  detail::let_next_kernel_start();  // as in small_bucket_place_kernel
   detail::wait_for_earlier_kernels();
   std::uint32_t* const row = counts + std::size_t{blockIdx.x} * tiles;
   std::uint32_t total = 0;
@@ -94,7 +94,7 @@ __global__ void __launch_bounds__(Threads)
   if (threadIdx.x == 0) totals[blockIdx.x] = total;
 }
 
-/// Where a grouping is written, by the requests of each shader in the tiles before and in all.
+/// The places of a grouping, from the number of each shader's requests in earlier tiles and in all.
 template <shader_id Shaders>
 struct bucket_output {
   std::uint32_t const* earlier;
@@ -106,7 +106,7 @@ struct bucket_output {
 
   __device__ void prepare(shared_memory&) const {}
 
-  /// Where the requests of this block's tile go that name the shader of this lane.
+  /// The first place for requests of this block's tile that name the shader of this lane.
   __device__ std::uint32_t place_of_lane(shared_memory const&) const {
     std::uint32_t const lane = threadIdx.x % warp_size;
     std::uint32_t const total = lane < Shaders ? totals[lane] : 0;

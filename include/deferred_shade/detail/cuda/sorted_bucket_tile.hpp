@@ -14,18 +14,17 @@
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
-/// A tile sorted by the shaders that its requests name, in shared memory. A lane of every warp
-/// looks after each shader.
+/// A tile in shared memory, sorted by shader. Each shader has a lane of every warp.
 template <shader_id Shaders>
 class sorted_bucket_tile {
  public:
-  /// What a lane knows of the shader with its number, and of the tile.
+  /// What a lane knows about its shader, the one with its number, and about the tile.
   struct segment {
     std::uint32_t start;  ///< where in the tile its requests begin
     std::uint32_t used;   ///< the requests of the tile that name a shader
   };
 
-  /// Sorts a tile. Called by all threads of the block; a barrier must follow.
+  /// Sorts a tile. All threads of the block must call it; a barrier must follow.
   template <class Ids>
   __device__ segment sort(Ids const& ids, tile_of_block tile) {
     if constexpr (detail::counts_in_registers(Shaders)) {
@@ -36,7 +35,7 @@ class sorted_bucket_tile {
   }
 
   /// The request at place `row * 256 + threadIdx.x` of the sorted tile: its shader in the upper 8
-  /// bits, its position in the tile in the lower ones.
+  /// bits, its position in the tile in the lower 24.
   __device__ std::uint32_t at_row(std::uint32_t row) const {
     return slots_[spread(row * bucket_threads) + spread(threadIdx.x)];
   }
@@ -44,14 +43,14 @@ class sorted_bucket_tile {
  private:
   static constexpr bool by_threads = counts_in_registers(Shaders);
 
-  // What neighbouring threads write together is as far apart as a thread has requests: one word
-  // more for every 32 keeps it in different banks.
+  // Words that neighbouring threads write together are 16 apart, the requests of a thread. One more
+  // word after every 32 puts them into different banks.
   __device__ static constexpr std::uint32_t spread(std::uint32_t p) {
     return by_threads ? p + p / warp_size : p;
   }
 
-  // From the counts of every warp, what this lane knows of its shader; `begin` becomes the place of
-  // the first request of this warp.
+  // Computes this lane's segment from the counts of all warps. Sets `begin` to the place of the
+  // first request of the lane's shader in this warp.
   __device__ segment find_segment(std::uint32_t& begin) {
     std::uint32_t const lane = threadIdx.x % warp_size;
     std::uint32_t const warp = threadIdx.x / warp_size;
@@ -67,8 +66,8 @@ class sorted_bucket_tile {
     return {start, __shfl_sync(all_lanes, start + total, static_cast<int>(Shaders - 1))};
   }
 
-  // A thread takes 16 neighbours. Once it knows where its first request of each shader goes, it
-  // counts up from there, in a column of shared memory of its own.
+  // A thread takes 16 neighbours. It computes where its first request of each shader goes, and
+  // counts up from there in its own column of shared memory.
   template <class Ids>
   __device__ segment sort_by_threads(Ids const& ids, tile_of_block tile) {
     using counts = thread_counts<Shaders>;
@@ -89,7 +88,7 @@ class sorted_bucket_tile {
     __syncthreads();
     std::uint32_t begin;
     segment const result = find_segment(begin);
-    // Each thread reads what it has written: no barrier.
+    // Each thread reads only what it has written: no barrier is needed.
     std::uint32_t* const next = &next_[0][threadIdx.x];
 #pragma unroll
     for (std::uint32_t k = 0; k < counts::columns; ++k) {
@@ -100,7 +99,7 @@ class sorted_bucket_tile {
 #pragma unroll
     for (std::uint32_t item = 0; item < bucket_items; ++item) {
       std::uint32_t const key = keys[item];
-      // Atomic for being one instruction instead of three: no other thread adds to it.
+      // Atomic only because that is one instruction instead of three: no other thread adds to it.
       std::uint32_t const place = atomicAdd(&next[key * bucket_threads], 1U);
       slots_[spread(place)] = (key << 24) + mine + item;
     }

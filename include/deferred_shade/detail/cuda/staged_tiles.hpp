@@ -21,10 +21,9 @@
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
-/// One tile of record shaders: requests are loaded into shared memory in the order in which they
-/// lie, shaded in the order of their shaders, and the results, which take the place of the
-/// requests, are stored in the order in which they lie. `one_source`: all shaders have the same
-/// pointer.
+/// Runs a tile of record shaders. Requests are loaded into shared memory in memory order and shaded
+/// in shader order. The results take the place of the requests and are stored in memory order.
+/// `one_source`: all shaders have the same pointer as source.
 template <std::uint32_t Threads, std::uint32_t Items, class Count, class Ids, class... Shaders>
 __global__ void __launch_bounds__(Threads)
     staged_kernel(Count n, Ids ids, shader_list<Shaders...> const __grid_constant__ shaders,

@@ -15,8 +15,8 @@
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
-/// Whether T is the type of an extended lambda. nvcc gives its host compiler another type in its
-/// place, whose traits differ: which kernel there is must not depend on them.
+/// Whether T is the type of an extended lambda. nvcc replaces it by another type for its host
+/// compiler, with other traits: the choice of a kernel must not depend on them.
 #ifdef __CUDACC_EXTENDED_LAMBDA__
 template <class T>
 inline constexpr bool is_extended_lambda = __nv_is_extended_device_lambda_closure_type(T) ||
@@ -26,8 +26,8 @@ template <class T>
 inline constexpr bool is_extended_lambda = false;
 #endif
 
-/// What record shaders of one table have in common where their requests can pass through shared
-/// memory: one type of source, of sink and of result, all trivially copyable, and small records.
+/// The common types of the record shaders of a table whose requests can pass through shared memory.
+/// They have one type each of source, sink and result, all trivially copyable, and small records.
 template <class... Shaders>
 struct common_records {
   static constexpr bool possible = false;
@@ -43,7 +43,7 @@ struct common_records<record_shader<Source, Functions, Sink>...> {
   using request = typename first_shader::request_type;
   using result = typename first_shader::result_type;
 
-  /// The bytes of shared memory for a request, and in the same place for its result.
+  /// The bytes of shared memory for a request and, in the same place, its result.
   static constexpr std::size_t slot = ((std::max)(sizeof(request), sizeof(result)) + 15) / 16 * 16;
 
   static constexpr bool possible =
@@ -55,14 +55,13 @@ struct common_records<record_shader<Source, Functions, Sink>...> {
       std::is_trivially_copyable_v<Source> && std::is_trivially_copyable_v<Sink> &&
       alignof(request) <= 16 && alignof(result) <= 16 && slot <= largest_staged_record;
 
-  /// Whether requests lie in memory as they lie in the slots, so that 16 bytes are copied at a
-  /// time.
+  /// Whether requests lie in memory as in the slots. Then 16 bytes are copied at a time.
   static constexpr bool copies_words =
       std::is_pointer_v<Source> && sizeof(request) == slot && alignof(request) == 16;
 };
 
-/// The same of a table, which is small: in a large one, a tile that fits in shared memory has too
-/// few requests of each shader to fill its rows.
+/// The same for small tables only. In a large one, a tile that fits in shared memory has too few
+/// requests of each shader to fill its rows.
 template <bool Small, class... Shaders>
 struct staging_if_small {
   static constexpr bool possible = false;

@@ -26,9 +26,9 @@ __device__ inline four_bit_keys to_four_bits(std::uint32_t const (&keys)[16]) {
   return packed;
 }
 
-/// How often each shader is named by one thread's 16 requests, for tables of at most 15 shaders.
+/// How many of one thread's 16 requests name each shader, for tables of at most 15 shaders.
 ///
-/// Three counts share a word, ten bits each: room for the sums over the threads of a warp.
+/// Three counts share a word, with ten bits each: enough for the sums over the threads of a warp.
 template <shader_id Shaders>
 class thread_counts {
   static_assert(Shaders < 16, "deferred_shade: an id must fit in four bits");
@@ -38,7 +38,7 @@ class thread_counts {
                 "deferred_shade: a count must hold the requests of a warp");
 
  public:
-  /// The id `Shaders` is counted as well, those above it are not.
+  /// The id `Shaders` is counted as well; ids above it are not.
   static constexpr std::uint32_t columns = Shaders + 1;
   static constexpr std::uint32_t words = (columns + per_word - 1) / per_word;
 
@@ -51,7 +51,7 @@ class thread_counts {
   }
 
   __device__ static void count(four_bit_keys keys, std::uint32_t (&counts)[words]) {
-    // The same bit of all ids, in every other bit of a word.
+    // Each plane has one bit of all 16 ids, in every other bit of a word.
     std::uint32_t const lower = (keys.low & 0x33333333) | (keys.high << 2 & 0xcccccccc);
     std::uint32_t const upper = (keys.low >> 2 & 0x33333333) | (keys.high & 0xcccccccc);
     std::uint32_t const planes[] = {lower, lower >> 1, upper, upper >> 1};

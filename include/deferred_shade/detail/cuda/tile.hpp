@@ -22,8 +22,8 @@
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
-/// Sorts one tile, shades it row by row: a row is 32 requests of one shader, or what is left of
-/// them, and a warp takes the next row as soon as it has done one.
+/// Sorts one tile and shades it row by row. A row is up to 32 requests of one shader. A warp takes
+/// the next row as soon as it has finished one.
 template <std::uint32_t Threads, std::uint32_t Items, class Count, class Ids, class... Shaders>
 __global__ void __launch_bounds__(Threads)
     tile_kernel(Count n, Ids ids, shader_list<Shaders...> const __grid_constant__ shaders) {
@@ -67,8 +67,7 @@ __global__ void __launch_bounds__(bitonic::tile)
     key = detail::bitonic_key<sizeof...(Shaders)>(
         detail::shader_of(ids, first + t, sizeof...(Shaders)), t);
   }
-  // Each pair of lanes compares what each other holds; one keeps the smaller and one the larger
-  // key.
+  // Each pair of lanes compares its keys: one keeps the smaller and one the larger.
 #pragma unroll
   for (std::uint32_t run = 2; run <= bitonic::tile; run *= 2) {
 #pragma unroll
@@ -100,7 +99,7 @@ void run_tiles(cuda_system, bitonic, Policy const& exec, Count n, Ids ids,
       {detail::blocks_for(detail::maximum_of(n), threads), threads}, n, ids, shaders);
 }
 
-/// Runs every tile as tuning says.
+/// Runs every tile by the algorithm that tuning chooses.
 template <class Policy, class Count, class Ids, class... Shaders, class Workspace>
 void run_tiles(cuda_system here, counting, Policy const& exec, Count n, Ids ids,
                shader_table<Shaders...> const& shaders, Workspace const& scratch) {

@@ -14,7 +14,8 @@ inline namespace DEFERRED_SHADE_ARCHITECTURES {
 template <class Sort>
 class tile_rows {
  public:
-  /// Cuts the tile whose segments begin at `starts`. Called by all threads; a barrier must follow.
+  /// Cuts the tile whose segments begin at `starts`. All threads must call it; a barrier must
+  /// follow.
   __device__ void find(std::uint32_t const* starts) {
     if (threadIdx.x / warp_size != 0) return;
     std::uint32_t const lane = threadIdx.x % warp_size;
@@ -34,7 +35,7 @@ class tile_rows {
   }
 
   /// Calls `f(id, place)` for every place of the tile that has a shader. A warp takes one row after
-  /// the other, so that its lanes have one id at a time.
+  /// the other: its lanes have one id at a time.
   template <class Function>
   __device__ void for_each(std::uint32_t const* starts, Function const& f) {
     std::uint32_t const lane = threadIdx.x % warp_size;
@@ -53,7 +54,7 @@ class tile_rows {
  private:
   static constexpr shader_id shaders = Sort::columns - 1;
 
-  // The last shader whose rows begin at `row` or before; those without a row lie before it.
+  // The shader of a row: the last one whose rows begin at `row` or before.
   __device__ shader_id shader_of_row(std::uint32_t row, std::uint32_t lane) const {
     shader_id count = 0;
 #pragma unroll

@@ -14,11 +14,11 @@
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
-/// A stable counting sort of a tile of `Threads * Items` requests by one thread block, by the
-/// shaders that they name; those that name none go to the end. A warp owns neighbouring requests
-/// and takes them 32 at a time.
+/// A stable counting sort by shader of a tile of `Threads * Items` requests, by one thread block.
+/// Requests that name no shader go to the end. A warp owns neighbouring requests and takes them 32
+/// at a time.
 ///
-/// Up to 32 shaders, a lane of every warp looks after each shader; for more, CUB ranks the ids.
+/// Up to 32 shaders, each shader has a lane of every warp. For more, CUB ranks the ids.
 template <shader_id Shaders, std::uint32_t Threads, std::uint32_t Items>
 class tile_sort {
   static constexpr bool has_lanes = Shaders <= warp_size;
@@ -33,16 +33,16 @@ class tile_sort {
   static constexpr shader_id columns = Shaders + 1;
   static_assert(size <= 0xffff, "deferred_shade: a position in a tile must fit in 16 bits");
 
-  /// Shared memory that is free again once the places are known and a barrier has passed.
+  /// Shared memory that may be reused once the places are known and a barrier has passed.
   using temporary_storage = std::conditional_t<has_lanes, counts, typename ranker::TempStorage>;
 
-  /// Where in the tile this thread's request number `item` lies.
+  /// The position in the tile of this thread's request number `item`.
   __device__ static std::uint32_t position(std::uint32_t item) {
     std::uint32_t const warp = threadIdx.x / warp_size;
     return (warp * Items + item) * warp_size + threadIdx.x % warp_size;
   }
 
-  /// Loads the shaders of this thread's requests: the tile is `count` requests from `first` on.
+  /// Loads the shaders of this thread's requests. The tile is `count` requests from `first` on.
   template <class Ids>
   __device__ static void load(Ids const& ids, request_index first, std::uint32_t count,
                               std::uint32_t (&keys)[Items]) {
@@ -50,14 +50,15 @@ class tile_sort {
     detail::load_rows<Shaders>(ids, first + mine, mine < count ? count - mine : 0, keys);
   }
 
-  /// Whether a request has a place. With 32 shaders, no lane ranks those that name none.
+  /// Whether a request with this key has a place. With 32 shaders, no lane ranks those that name
+  /// none.
   __device__ static bool has_place(std::uint32_t key) {
     return Shaders != warp_size || key != Shaders;
   }
 
-  /// Computes the place of each of this thread's requests in the sorted tile, and `starts[k]`, in
-  /// shared memory: the place of the first request of shader k. Called by all threads of the block;
-  /// a barrier must follow.
+  /// Computes the places of this thread's requests in the sorted tile, and in shared memory
+  /// `starts[k]`, the place of the first request of shader k. All threads of the block must call
+  /// it; a barrier must follow.
   __device__ static void find_places(temporary_storage& temporary, std::uint32_t (&keys)[Items],
                                      std::uint32_t (&places)[Items], std::uint32_t* starts) {
     if constexpr (has_lanes) {

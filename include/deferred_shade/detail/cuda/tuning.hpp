@@ -8,15 +8,15 @@
 #include <deferred_shade/config.hpp>
 #include <deferred_shade/types.hpp>
 
-// Every size and threshold of the CUDA algorithms, with what decided it. Unless a line says
-// otherwise, that was measured on an H200 (docs/design.md, "CUDA"; docs/results/h200-*.md).
-// Needs no CUDA compiler: a workspace on the host asks for sizes as well.
+// Every size and threshold of the CUDA algorithms, and what decided it. Unless a line says
+// otherwise, it was measured on an H200 (docs/design.md, "CUDA"; docs/results/h200-*.md). Needs no
+// CUDA compiler: a workspace on the host asks for sizes as well.
 
 namespace deferred_shade {
 
 /// How a GPU groups a batch into buckets.
 enum class bucket_algorithm {
-  lanes,       ///< a lane of every warp looks after each shader: up to 32 shaders
+  lanes,       ///< each shader has a lane of every warp: up to 32 shaders
   counters,    ///< a thread block has counters in shared memory: up to 511 shaders
   radix_sort,  ///< CUB's sort of (id, index) pairs: any number
 };
@@ -31,111 +31,112 @@ enum class tile_algorithm {
 
 namespace detail {
 
-/// What a request's threads have in common on every GPU of NVIDIA.
+/// The threads of a warp, on every GPU of NVIDIA.
 inline constexpr std::uint32_t warp_size = 32;
 
-// Buckets. Sixteen requests for each thread: as many four-bit ids as two words hold, and a tile
-// large enough to write each shader's requests in runs.
+// Buckets. Each thread has 16 requests: two words hold their four-bit ids, and the tile is large
+// enough to write each shader's requests in runs.
 inline constexpr std::uint32_t bucket_threads = 256;
 inline constexpr std::uint32_t bucket_items = 16;
 inline constexpr std::uint32_t bucket_warps = bucket_threads / warp_size;
 inline constexpr std::uint32_t bucket_tile = bucket_threads * bucket_items;
 
-/// Whether a thread counts its requests in registers: with four-bit ids, of which one is for
-/// requests without a shader. 45 us instead of 55 for 16 Mi requests of 11 shaders.
+/// Whether a thread counts its requests in registers. Ids have four bits then, and one id is for
+/// requests without a shader. 16 Mi requests of 11 shaders take 45 us instead of 55.
 DEFERRED_SHADE_HOST_DEVICE constexpr bool counts_in_registers(shader_id shaders) {
   return shaders < 16;
 }
 
-/// The thread blocks that place buckets on one multiprocessor at a time: as many as registers
-/// allow without spilling.
+/// Thread blocks of the place kernel on one multiprocessor: as many as registers allow without
+/// spilling.
 DEFERRED_SHADE_HOST_DEVICE constexpr std::uint32_t place_blocks(shader_id shaders) {
   return detail::counts_in_registers(shaders) ? 6 : 4;
 }
 /// The same for tables whose counters lie in shared memory.
 inline constexpr std::uint32_t large_place_blocks = 3;
 
-/// The threads that scan the counts of one shader: the largest block, since a batch has only as
-/// many such blocks as shaders.
+/// Threads that scan the counts of one shader: the largest block, because a batch has only as many
+/// such blocks as shaders.
 inline constexpr std::uint32_t bucket_scan_threads = 1024;
 
-/// A window is 32 tiles, 128 Ki requests: what the second-level cache holds of them with what they
-/// load and store. Half of it was 2 to 5 % slower at 8 Mi requests, twice of it 4 to 9 % with
-/// random ids.
+/// A window is 32 tiles, 128 Ki requests: as many as fit in the second-level cache with what they
+/// load and store. Half the size was 2 to 5 % slower at 8 Mi requests, twice the size 4 to 9 %
+/// slower with random ids.
 inline constexpr std::uint32_t window_tiles = 32;
 inline constexpr std::uint32_t window_size = window_tiles * bucket_tile;
 
-/// The threads of kernels that only copy or fill: any number does.
+/// Threads per block of kernels that only copy or fill: any number does.
 inline constexpr std::uint32_t copy_threads = 256;
 
-/// A launch of one shader has at most so many threads in a block, unless the shader asks for
-/// others: the warps of a larger block wait for its last one before the next block takes its place.
+/// The most threads per block in a launch of one shader, unless the shader sets another number. The
+/// warps of a larger block wait longer for its last one before the next block takes its place.
 inline constexpr int explicit_threads = 256;
 
-/// Records that pass through shared memory have at most so many bytes: with more, a
-/// multiprocessor holds too few of them.
+/// The most bytes of a record that passes through shared memory: of larger ones, a multiprocessor
+/// holds too few.
 inline constexpr std::size_t largest_staged_record = 128;
 
-/// Tables of more shaders are not staged: a tile that fits in shared memory has too few requests of
-/// each shader to fill its rows.
+/// The most shaders of a table that is staged. With more, a tile that fits in shared memory has too
+/// few requests of each shader to fill its rows.
 inline constexpr shader_id most_staged_shaders = 16;
 
 }  // namespace detail
 
-/// What schedules ask on a GPU. A renderer that knows better derives from it and says so for a
-/// call: see `tuned`.
+/// The choices of schedules on a GPU. A renderer may derive from it and change them for a call: see
+/// `tuned`.
 struct cuda_tuning {
-  /// Which grouping group_by_bucket makes of a table.
+  /// The algorithm of group_by_bucket for a table.
   static constexpr bucket_algorithm bucket(shader_id shaders) {
     if (shaders <= 32) return bucket_algorithm::lanes;      // a warp has as many lanes
     if (shaders <= 511) return bucket_algorithm::counters;  // shared memory has as many counters
     return bucket_algorithm::radix_sort;
   }
 
-  /// Which tiles local_sort_then_dispatch makes of a table; `records`: it can be staged.
+  /// The algorithm of local_sort_then_dispatch for a table. `records`: the table can be staged.
   static constexpr tile_algorithm tile(shader_id shaders, bool records) {
     if (shaders > 255) return tile_algorithm::bitonic;
     if (records) return tile_algorithm::staged;
-    // Up to 8 index shaders are taken for short ones: six simple shaders at random take 1.24 times
-    // the oracle in dense tiles, 1.45 in rows. Eleven moderate ones take 849 us, and 266 in
-    // windows.
+    // Up to 8 index shaders are assumed to be short. Six simple shaders at random take 1.24 times
+    // the oracle's time in dense tiles, 1.45 times in rows. Eleven moderate ones take 849 us, and
+    // 266 us in windows.
     return shaders <= 8 ? tile_algorithm::dense : tile_algorithm::rows;
   }
 
-  /// Whether window_sort_then_dispatch runs windows; else it groups the whole batch by buckets.
+  /// Whether window_sort_then_dispatch runs windows. Otherwise it groups the whole batch by
+  /// buckets.
   static constexpr bool windows(shader_id shaders) { return shaders <= 32; }
 
-  /// The threads of a block of the switch over requests as they come. The warps of a large block
-  /// run the same shaders at about the same time, and share their instructions. A table of few
-  /// index shaders is taken for one of short ones: small blocks make room for the next one sooner
-  /// (1.47 instead of 1.52 times the oracle, six simple shaders).
+  /// Threads per block of the switch over requests that are not grouped. The warps of a large block
+  /// run the same shaders at about the same time, and share their instructions. Few index shaders
+  /// are assumed to be short: small blocks make room for the next one sooner (six simple shaders:
+  /// 1.47 instead of 1.52 times the oracle's time).
   static constexpr std::uint32_t switch_threads(shader_id shaders, bool records) {
     return shaders <= 8 && !records ? 128 : 256;
   }
   /// The same over a grouping.
   static constexpr std::uint32_t grouped_switch_threads = 256;
 
-  /// Rows: a tile is the largest that a multiprocessor has room for with two blocks. All warps of
-  /// a block then run the same shader at nearly the same time.
+  /// Rows: the tile is the largest of which a multiprocessor holds two. All warps of a block then
+  /// run the same shader at nearly the same time.
   static constexpr std::uint32_t tile_threads = 512;
   static constexpr std::uint32_t tile_items = 8;
 
-  /// Dense tiles: one request for each thread, or four if all of them run at the same time anyway.
+  /// Dense tiles: one request for each thread, or four if the whole batch then runs at once.
   static constexpr std::uint32_t dense_threads = 256;
   static constexpr std::uint32_t dense_items = 4;
 
-  /// Staged tiles: a row is full where a shader has many requests in a tile. Small tables do with
-  /// small tiles, more of which are under way: some load, some shade, some store.
+  /// Staged tiles: rows are full if each shader has many requests in a tile. For small tables,
+  /// small tiles are enough, and more of them run at once: some load, some shade, some store.
   static constexpr std::uint32_t staged_threads(shader_id shaders) {
     return shaders <= 8 ? 128 : 512;
   }
-  /// Requests for each thread, by the bytes of a request in shared memory.
+  /// Requests for each thread, by the bytes that a request takes in shared memory.
   static constexpr std::uint32_t staged_items(std::size_t bytes) {
     return bytes > 16 ? static_cast<std::uint32_t>(128 / bytes) : 8;
   }
 
-  /// Windows: the more shaders, the more blocks of a multiprocessor differ in theirs, and the
-  /// larger a block should be. Else smaller ones keep it better filled.
+  /// Windows: the more shaders a table has, the more often blocks of a multiprocessor run different
+  /// ones, and the larger blocks should be. With few shaders, smaller blocks fill it better.
   static constexpr std::uint32_t window_threads(shader_id shaders) {
     if (shaders <= 8) return 256;
     return shaders <= 16 ? 512 : 768;

@@ -16,7 +16,7 @@
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
 
-/// Runs the requests of every window in the order of their shaders.
+/// Runs the requests of every window in shader order.
 template <std::uint32_t Threads, class... Shaders>
 __global__ void __launch_bounds__(Threads)
     window_kernel(window_grouping windows, std::size_t maximum,
@@ -30,7 +30,7 @@ __global__ void __launch_bounds__(Threads)
                                                                         (request & 0xffffff))});
 }
 
-/// Whether a table of so many shaders is run in windows.
+/// Whether a table of `shaders` shaders is run in windows.
 template <class Workspace>
 constexpr bool has_windows(cuda_system, shader_id shaders) {
   return cuda_tuning_of<Workspace>::windows(shaders);
@@ -47,7 +47,8 @@ void run_windows(cuda_system, Policy const& exec, Count n, Ids ids,
   [[maybe_unused]] auto const dispatched = scratch.begin_phase({"dispatch"});
   std::size_t const maximum = detail::maximum_of(n);
   constexpr std::uint32_t threads = tuning::window_threads(sizeof...(Shaders));
-  // Else it would run with what the sort leaves of the first-level cache, next to nothing.
+  // Without that preference, the kernel runs with what the sort leaves of the first-level cache:
+  // next to nothing.
   launch_shape const shape{detail::blocks_for(maximum, threads), threads, 0, true};
   detail::launch<&window_kernel<threads, Shaders...>>(
       "window_sort_then_dispatch", detail::stream_of(exec), shape, windows, maximum, shaders);

@@ -13,8 +13,8 @@
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
 
-// Buckets again, but of each window of the batch by itself. Where the requests of a window end up
-// depends on no other window, so that there is no scan: a tile adds up the counts of its window.
+// Buckets of each window of the batch by itself. Windows do not depend on each other and need no
+// scan: a tile adds up the counts of its window.
 
 namespace deferred_shade::detail {
 inline namespace DEFERRED_SHADE_ARCHITECTURES {
@@ -26,7 +26,7 @@ struct window_grouping {
   std::uint32_t const* used;  ///< for each window, the requests that name a shader: they come first
 };
 
-/// Where windows are written, by the counts of each tile.
+/// The places of requests in windows, from the counts of each tile.
 template <shader_id Shaders>
 struct window_output {
   std::uint32_t const* counts;
@@ -38,7 +38,7 @@ struct window_output {
     std::uint32_t earlier[bucket_warps][warp_size];
   };
 
-  /// Every warp adds up its share of the window's tiles, by lanes.
+  /// Every warp adds up the counts of its share of the window's tiles, a shader in each lane.
   __device__ void prepare(shared_memory& shared) const {
     constexpr std::uint32_t share = window_tiles / bucket_warps;
     std::uint32_t const lane = threadIdx.x % warp_size;
@@ -57,7 +57,7 @@ struct window_output {
     shared.earlier[warp][lane] = earlier;
   }
 
-  /// Where the requests of this block's tile go that name the shader of this lane.
+  /// The first place for requests of this block's tile that name the shader of this lane.
   __device__ std::uint32_t place_of_lane(shared_memory const& shared) const {
     std::uint32_t const lane = threadIdx.x % warp_size;
     std::uint32_t const window = blockIdx.x / window_tiles;

@@ -10,21 +10,21 @@
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
 
-// What the groupings for CUDA take of a workspace, at most: CUB says what it takes when it runs.
-// Needs no CUDA compiler, for a host to reserve memory of a device. None of them falls when batches
-// or tables grow.
+// Upper bounds of the workspace that groupings take on CUDA: the exact size depends on CUB at run
+// time. Needs no CUDA compiler: code for the host can reserve memory of a device. No bound falls
+// when batches or tables grow.
 
 namespace deferred_shade::detail {
 
-/// A bound of what CUB takes to scan or select `n` elements: it keeps 16 bytes for each of its
-/// tiles, which have at least 128 elements.
+/// An upper bound of what CUB takes to scan or select `n` elements: 16 bytes for each of its tiles,
+/// which have at least 128 elements.
 constexpr std::size_t cub_scan_bytes(std::size_t n) {
   return detail::array_bytes<std::byte>(n / 8 + 65536);
 }
 
-/// The sort keeps keys and indices twice. Besides them, CUB has up to 1024 bytes for each of its
-/// tiles, of at least 1024 pairs with narrow keys; and before compute capability 9.0, tables that
-/// depend on the GPU alone.
+/// The sort keeps keys and indices twice. CUB adds up to 1024 bytes for each of its tiles, which
+/// have at least 1024 pairs with narrow keys. Before compute capability 9.0, it also adds tables
+/// whose size depends on the GPU alone.
 constexpr std::size_t radix_bytes(cuda_system, std::size_t n, std::size_t shaders) {
   std::size_t const key = shaders <= 0xff ? 1 : shaders <= 0xffff ? 2 : 4;
   return 2 * array_bytes<request_index>(n) + 2 * array_bytes<std::byte>(n * key) +
@@ -33,7 +33,7 @@ constexpr std::size_t radix_bytes(cuda_system, std::size_t n, std::size_t shader
 }
 
 constexpr std::size_t bucket_bytes(cuda_system where, std::size_t n, std::size_t shaders) {
-  // Tables beyond those of bucket_algorithm::counters are sorted.
+  // Tables that are too large for bucket_algorithm::counters are sorted.
   std::size_t const counted = (std::min)(shaders, std::size_t{511});
   std::size_t const tiles = n / bucket_tile + 1;
   std::size_t const counters = tiles * counted + 1;
