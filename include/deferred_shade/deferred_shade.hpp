@@ -4,6 +4,7 @@
 #include <deferred_shade/config.hpp>  // first: it refuses what is too old
 
 #include <deferred_shade/dispatch.hpp>
+#include <deferred_shade/gather.hpp>
 #include <deferred_shade/grouping.hpp>
 #include <deferred_shade/observer.hpp>
 #include <deferred_shade/record_shaders.hpp>

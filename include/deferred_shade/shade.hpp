@@ -3,11 +3,7 @@
 
 #include <deferred_shade/config.hpp>  // first: it refuses what is too old
 
-#include <stdexcept>
-#include <type_traits>
-
 #include <deferred_shade/detail/checked_count.hpp>
-#include <deferred_shade/detail/fail.hpp>
 #include <deferred_shade/detail/requirements.hpp>
 #include <deferred_shade/detail/shader_subset.hpp>
 #include <deferred_shade/detail/system.hpp>
@@ -17,20 +13,6 @@
 #include <deferred_shade/workspace.hpp>
 
 namespace deferred_shade {
-namespace detail {
-
-// The number of requests that a schedule is given: the number itself if the host sees it.
-template <class System, class Count>
-auto batch_size(System, Count n) {
-  if constexpr (is_device_count<Count> && std::is_same_v<System, cuda_system>) {
-    detail::checked_maximum("shade", n);
-    return n;
-  } else {
-    return detail::checked_count("shade", n);
-  }
-}
-
-}  // namespace detail
 
 /// Runs the shader of every request exactly once, in the order that `schedule` makes.
 ///
@@ -68,15 +50,11 @@ void shade(Policy const& exec, Schedule const& schedule, Count n, Ids ids,
       detail::requirements_of_shade<Schedule, Policy, Count, Ids, Workspace, Shaders...>;
   if constexpr (required::met) {
     using system = detail::system_of<Policy>;
-    auto const count = detail::batch_size(system{}, n);
+    auto const count = detail::batch_size(system{}, "shade", n);
     // Sized by the maximum: no later count allocates.
     if constexpr (detail::is_device_count<Count>) scratch.reserve(n.maximum, sizeof...(Shaders));
     if (detail::maximum_of(count) == 0) return;
-    if constexpr (std::is_pointer_v<Ids>) {
-      if (ids == nullptr) {
-        detail::fail<std::invalid_argument>("deferred_shade::shade: ids is null, and n is not 0");
-      }
-    }
+    detail::check_ids("shade", count, ids);
     detail::run_schedule(system{}, schedule, exec, count, ids, shaders, scratch);
   }
 }

@@ -51,6 +51,37 @@ struct grouping {
   std::size_t maximum = max_requests;
 };
 
+/// An order of requests: at place p stands request `permutation[p]`, for p from 0 to n - 1. Both
+/// lie where the execution policy runs.
+struct request_order {
+  request_index const* permutation;
+  device_count<request_index> n;
+};
+
+/// All requests of a batch, grouped by shader, as `group` returns them: a view of memory that a
+/// workspace owns. It is a grouping, so that dispatches take it; and behind the segments of
+/// the shaders, from `offsets[shaders]` to `offsets[shaders + 1] - 1`, it has the requests that
+/// name no shader, in the order in which they came. `offsets[shaders + 1]` is the number of all
+/// requests.
+struct request_groups : grouping {
+  shader_id shaders;
+
+  /// All requests: those that name no shader come last.
+  request_order all() const { return {permutation, {offsets + shaders + 1, maximum}}; }
+  /// The requests that name a shader. `live().n` is their number, for the next batch.
+  request_order live() const { return {permutation, {offsets + shaders, maximum}}; }
+};
+
+/// An array of a batch, and the array that its elements go to.
+template <class T>
+struct moved {
+  T const* from;
+  T* to;
+};
+
+template <class From, class To>
+moved(From*, To*) -> moved<To>;
+
 /// A part of what a schedule does, as an observer is told of it: see `observed`. A renderer's own
 /// schedule may have phases by other names.
 struct phase {
@@ -76,6 +107,14 @@ DEFERRED_SHADE_HOST_DEVICE inline shader_id shader_of(Ids const& ids, request_in
     return shaders;
   }
 }
+
+/// Whether objects of type T are copied by copying their bytes. Specialise it for a type with a
+/// copy constructor of its own that does no more: the vector types of many renderers have one. Then
+/// records with such members pass through shared memory and vectors, and `gather` takes them.
+///
+///     template <> inline constexpr bool deferred_shade::is_copied_by_bytes<my::hit> = true;
+template <class T>
+inline constexpr bool is_copied_by_bytes = std::is_trivially_copyable_v<T>;
 
 namespace detail {
 

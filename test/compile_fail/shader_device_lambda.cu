@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// A lambda for the device alone, of which the host is told nothing.
+// A lambda for the device alone, which is to run on a CPU.
 // errors: 1
-// error: a shader must be a lambda for __host__ __device__, not for __device__ alone; write
+// error: a shader that is a lambda for __device__ alone must have an exec for CUDA; write
+#include <thrust/system/cpp/execution_policy.h>
+
 #include "cuda.hpp"
 
-void f(std::uint8_t* ids, float* out, device_workspace& scratch) {
+void f(std::uint8_t* ids, float* out, ds::workspace<>& scratch) {
 #ifdef RIGHT
   auto const function = [=] __host__ __device__(ds::request_index i) { out[i] = 1; };
 #else
   auto const function = [=] __device__(ds::request_index i) { out[i] = 1; };
 #endif
-  ds::shade(thrust::cuda::par, ds::implicit_serialization{}, 5, ids, ds::shader_table{function},
+  ds::shade(thrust::cpp::par, ds::implicit_serialization{}, 5, ids, ds::shader_table{function},
             scratch);
 }

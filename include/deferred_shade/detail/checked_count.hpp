@@ -6,9 +6,15 @@
 #include <type_traits>
 
 #include <deferred_shade/detail/fail.hpp>
+#include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade::detail {
+
+template <class T>
+inline constexpr bool is_device_count = false;
+template <class Integer>
+inline constexpr bool is_device_count<device_count<Integer>> = true;
 
 /// `n` as a count of requests, for the function that `caller` names. Throws std::invalid_argument
 /// if `n` is negative, std::length_error if it exceeds `max_requests`.
@@ -54,6 +60,30 @@ request_index checked_count(std::string const& caller, device_count<Integer> n) 
                                     std::to_string(maximum));
   }
   return count;
+}
+
+/// `n` as an algorithm gets it: the number itself if the host can see it, else a device_count.
+/// Throws what checked_count and checked_maximum throw.
+template <class System, class Count>
+auto batch_size(System, std::string const& caller, Count n) {
+  if constexpr (is_device_count<Count> && std::is_same_v<System, cuda_system>) {
+    detail::checked_maximum(caller, n);
+    return n;
+  } else {
+    return detail::checked_count(caller, n);
+  }
+}
+
+/// Throws std::invalid_argument if the ids of a batch that may have requests are a null pointer.
+template <class Count, class Ids>
+void check_ids([[maybe_unused]] std::string const& caller, [[maybe_unused]] Count n,
+               [[maybe_unused]] Ids const& ids) {
+  if constexpr (std::is_pointer_v<Ids>) {
+    if (ids == nullptr && detail::maximum_of(n) != 0) {
+      detail::fail<std::invalid_argument>("deferred_shade::" + caller +
+                                          ": ids is null, and n is not 0");
+    }
+  }
 }
 
 }  // namespace deferred_shade::detail

@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <deferred_shade/detail/checked_count.hpp>
 #include <deferred_shade/detail/device_lambda.hpp>
 #include <deferred_shade/detail/ids.hpp>
 #include <deferred_shade/detail/shader_subset.hpp>
@@ -15,7 +16,7 @@
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
 
-// What `shade` asks of its arguments. If a check fails, the later ones pass and nothing else is
+// What functions ask of their arguments. If a check fails, the later ones pass and nothing else is
 // compiled: the first error is the only one.
 
 namespace deferred_shade {
@@ -24,11 +25,6 @@ template <class T>
 struct cuda_allocator;
 
 namespace detail {
-
-template <class T>
-inline constexpr bool is_device_count = false;
-template <class Integer>
-inline constexpr bool is_device_count<device_count<Integer>> = true;
 
 // Members of a workspace: see workspace.hpp.
 template <class T, class = void>
@@ -60,8 +56,9 @@ template <class T>
 inline constexpr bool is_on_device<cuda_allocator<T>> = true;
 
 /// Whether a shader can be called. If not, the table or the record shader has said what is wrong.
+/// (nvcc does not tell what a lambda for the device alone can be called with.)
 template <class Shader>
-struct is_callable : std::bool_constant<!is_device_lambda<Shader> &&
+struct is_callable : std::bool_constant<is_device_lambda<Shader> ||
                                         std::is_invocable_v<Shader const&, request_index>> {};
 template <class Source, class Function, class Sink>
 struct is_callable<record_shader<Source, Function, Sink>>
@@ -84,26 +81,19 @@ constexpr shader_id last_id() {
   return present.count == 0 ? 0 : present.ids[present.count - 1];
 }
 
-template <class Schedule, class Policy, class Count, class Ids, class Workspace, class... Shaders>
-struct requirements_of_shade {
+/// What every function that runs or groups a batch asks. `Checked`: what was checked before holds.
+template <bool Checked, class Policy, class Count, class Ids, class Workspace>
+struct requirements_of_batch {
  private:
   using system = system_of<Policy>;
   static constexpr bool on_cuda = std::is_same_v<system, cuda_system>;
   static constexpr bool exec = !std::is_void_v<system>;
-
-  static constexpr bool callable = exec && all_of<is_callable<Shaders>::value...>();
+  static constexpr bool checked = exec && Checked;
 
   static constexpr bool n =
       is_device_count<Count> || (std::is_integral_v<Count> && !std::is_same_v<Count, bool>);
 
-  static constexpr bool ids = callable && n && has_ids<Ids> && are_ids<Ids>();
-  static constexpr bool wide_enough() {
-    if constexpr (ids) {
-      return detail::largest_id_of<Ids>() >= detail::last_id<Shaders...>();
-    } else {
-      return true;
-    }
-  }
+  static constexpr bool ids = checked && n && has_ids<Ids> && are_ids<Ids>();
 
   static constexpr bool takes = has_take<Workspace>;
   static constexpr bool reserves = has_reserve<Workspace>;
@@ -113,22 +103,16 @@ struct requirements_of_shade {
   static constexpr bool reachable_by_gpu = !on_cuda || !is_on_host<allocator>;
   static constexpr bool reachable_by_cpu = on_cuda || !is_on_device<allocator>;
 
-  static constexpr bool copies = !on_cuda || std::is_copy_constructible_v<shader_table<Shaders...>>;
-
  public:
-  static constexpr bool met = ids && wide_enough() && takes && reserves && has_phases &&
-                              reachable_by_gpu && reachable_by_cpu && copies;
-  using value = std::bool_constant<met>;  // makes clang compute it here
+  static constexpr bool has_good_ids = ids;
+  static constexpr bool met =
+      ids && takes && reserves && has_phases && reachable_by_gpu && reachable_by_cpu;
 
   static_assert(exec,
                 "deferred_shade: exec must be an execution policy of Thrust's system cpp, omp, tbb "
                 "or, in code for nvcc, cuda; pass thrust::omp::par, for example");
-  static_assert(!callable || n, "deferred_shade: n must be an integer or a device_count");
+  static_assert(!checked || n, "deferred_shade: n must be an integer or a device_count");
   using checked_ids = std::integral_constant<std::size_t, sizeof(requirements_of_ids<Ids>)>;
-  static_assert(
-      wide_enough(),
-      "deferred_shade: the type of ids must be wide enough for the id of the last shader; "
-      "use std::uint16_t or std::uint32_t, or a smaller table");
   static_assert(!ids || takes,
                 "deferred_shade: scratch must be a workspace that is not const, or have its member "
                 "take(elements<T>...); workspace.hpp says what it does");
@@ -145,6 +129,43 @@ struct requirements_of_shade {
   static_assert(reachable_by_cpu,
                 "deferred_shade: scratch must have memory that the CPU reaches, not that of a "
                 "cuda_allocator; write deferred_shade::workspace scratch{exec}");
+};
+
+/// What `group` asks of its arguments.
+template <class Policy, class Count, class Ids, class Workspace>
+struct requirements_of_group {
+  static constexpr bool met = requirements_of_batch<true, Policy, Count, Ids, Workspace>::met;
+  using value = std::bool_constant<met>;  // which clang computes here, and no later
+};
+
+/// What functions ask of their arguments.
+template <class Schedule, class Policy, class Count, class Ids, class Workspace, class... Shaders>
+struct requirements_of_shade {
+ private:
+  static constexpr bool on_cuda = std::is_same_v<system_of<Policy>, cuda_system>;
+  static constexpr bool callable = all_of<is_callable<Shaders>::value...>();
+  static constexpr bool on_machine = on_cuda || all_of<!is_device_lambda<Shaders>...>();
+  using batch = requirements_of_batch<callable && on_machine, Policy, Count, Ids, Workspace>;
+  static constexpr bool wide_enough() {
+    if constexpr (batch::has_good_ids) {
+      return detail::largest_id_of<Ids>() >= detail::last_id<Shaders...>();
+    } else {
+      return true;
+    }
+  }
+  static constexpr bool copies = !on_cuda || std::is_copy_constructible_v<shader_table<Shaders...>>;
+
+ public:
+  static constexpr bool met = batch::met && wide_enough() && copies;
+  using value = std::bool_constant<met>;  // which clang computes here, and no later
+
+  static_assert(on_machine,
+                "deferred_shade: a shader that is a lambda for __device__ alone must have an exec "
+                "for CUDA; write [=] __host__ __device__ (...)");
+  static_assert(
+      wide_enough(),
+      "deferred_shade: the type of ids must be wide enough for the id of the last shader; "
+      "use std::uint16_t or std::uint32_t, or a smaller table");
   static_assert(copies, "deferred_shade: shaders must be copyable where exec is for CUDA");
 };
 

@@ -21,9 +21,6 @@ namespace detail {
 // tuple, no fold or recursion over the pack limits the size or slows the compiler.
 template <shader_id Id, class Shader>
 struct table_slot {
-  static_assert(!is_device_lambda<Shader>,
-                "deferred_shade: a shader must be a lambda for __host__ __device__, not for "
-                "__device__ alone; write [=] __host__ __device__ (...)");
   static_assert(is_device_lambda<Shader> || std::is_invocable_v<Shader const&, request_index>,
                 "deferred_shade: a shader must be callable as shader(request_index), by an "
                 "operator() that is const; pass functions of records to record_shaders");

@@ -9,6 +9,7 @@
 
 #include <deferred_shade/config.hpp>
 #include <deferred_shade/detail/bits.hpp>
+#include <deferred_shade/types.hpp>
 
 // Records laid out word by word, so that a vector holds the same member of neighbouring records.
 
@@ -17,8 +18,7 @@ namespace deferred_shade::detail {
 /// Whether a record can be taken apart into words.
 template <class T>
 inline constexpr bool has_words =
-    std::is_trivially_copyable_v<T>&& std::is_default_constructible_v<T>&&
-        std::is_copy_assignable_v<T> &&
+    is_copied_by_bytes<T>&& std::is_default_constructible_v<T>&& std::is_copy_assignable_v<T> &&
     !std::is_empty_v<T> && sizeof(T) % 4 == 0 && sizeof(T) <= 256;
 
 #if DEFERRED_SHADE_HAS_GNU

@@ -45,6 +45,10 @@ inline constexpr std::size_t most_packed = 256;
 inline constexpr std::size_t small_segment = 16384;
 inline constexpr std::size_t small_chunk = 32;
 
+/// The places of an order whose elements are moved at a time: their part of the permutation takes
+/// half of a first-level cache of 32 KiB.
+inline constexpr std::size_t moved_chunk = 4096;
+
 /// Keys that are counted at a time by comparing vectors.
 inline constexpr std::size_t compared_chunk = 4096;
 /// Keys that are counted one by one, or put to their places, at a time: the first-level cache is

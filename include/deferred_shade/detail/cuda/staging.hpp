@@ -51,7 +51,7 @@ struct common_records<record_shader<Source, Functions, Sink>...> {
       sizeof(Source) + sizeof(Sink) <= 256 && std::is_copy_assignable_v<request> &&
       std::is_copy_assignable_v<result> &&
       (std::is_same_v<result, typename shader<Functions>::result_type> && ...) &&
-      std::is_trivially_copyable_v<request> && std::is_trivially_copyable_v<result> &&
+      is_copied_by_bytes<request> && is_copied_by_bytes<result> &&
       std::is_trivially_copyable_v<Source> && std::is_trivially_copyable_v<Sink> &&
       alignof(request) <= 16 && alignof(result) <= 16 && slot <= largest_staged_record;
 

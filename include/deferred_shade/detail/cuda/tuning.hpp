@@ -65,6 +65,11 @@ inline constexpr std::uint32_t bucket_scan_threads = 1024;
 inline constexpr std::uint32_t window_tiles = 32;
 inline constexpr std::uint32_t window_size = window_tiles * bucket_tile;
 
+/// Moved arrays: a warp has so many rows of 32 elements, for loads of small elements to be under
+/// way together.
+inline constexpr std::uint32_t moved_threads = 256;
+inline constexpr std::uint32_t moved_rows = 4;
+
 /// Threads per block of kernels that only copy or fill: any number does.
 inline constexpr std::uint32_t copy_threads = 256;
 
