@@ -11,6 +11,12 @@
 #include <deferred_shade/shader_table.hpp>
 #include <deferred_shade/types.hpp>
 #include <deferred_shade/workspace.hpp>
+#ifdef DEFERRED_SHADE_CHECKED
+#include <deferred_shade/detail/expected_ids.hpp>
+#ifdef __CUDACC__
+#include <deferred_shade/detail/cuda/expected_ids.hpp>
+#endif
+#endif
 
 namespace deferred_shade {
 
@@ -43,6 +49,11 @@ namespace deferred_shade {
 /// exceeds `max_requests` or, on a CPU, a device_count exceeds its maximum; and what the
 /// workspace's allocator throws. No shader has run then, and `scratch` stays usable. Throws
 /// cuda_error if CUDA refuses a launch.
+///
+/// If the macro DEFERRED_SHADE_CHECKED is defined, in all files of a program alike, `shade` first
+/// looks at all ids, and throws std::invalid_argument if one is of a shader that
+/// shader_table::expecting was told not to occur. On CUDA it waits for the stream then, except in a
+/// capture, where it does not look.
 template <class Policy, class Schedule, class Count, class Ids, class... Shaders, class Workspace>
 void shade(Policy const& exec, Schedule const& schedule, Count n, Ids ids,
            shader_table<Shaders...> const& shaders, Workspace& scratch) {
@@ -55,6 +66,9 @@ void shade(Policy const& exec, Schedule const& schedule, Count n, Ids ids,
     if constexpr (detail::is_device_count<Count>) scratch.reserve(n.maximum, sizeof...(Shaders));
     if (detail::maximum_of(count) == 0) return;
     detail::check_ids("shade", count, ids);
+#ifdef DEFERRED_SHADE_CHECKED
+    detail::check_expected(system{}, exec, count, ids, shaders);
+#endif
     detail::run_schedule(system{}, schedule, exec, count, ids, shaders, scratch);
   }
 }

@@ -102,6 +102,12 @@ TEMPLATE_LIST_TEST_CASE("group takes a device_count, an iterator and no shaders 
   check_groups<TestType>(ds::group(exec, 0, ids, 11, scratch),
                          all_requests(std::vector<std::uint32_t>{}, 11), 0);
 
+  for (ds::shader_id const shaders :
+       {100U, 255U, 300U}) {  // ids that are copied in one byte or two
+    check_groups<TestType>(ds::group(exec, 5000, ids, shaders, scratch),
+                           all_requests(data, shaders), 5000);
+  }
+
   auto const count = test::on<TestType>(std::vector<int>{3001});
   data.resize(3001);
   auto const groups = ds::group(exec, ds::device_count{count.data(), 5000}, ids, 11, scratch);

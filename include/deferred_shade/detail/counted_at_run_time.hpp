@@ -34,7 +34,7 @@ using ids_or_none = thrust::transform_iterator<id_or_none, Ids, shader_id, shade
 /// The numbers of segments that an algorithm is compiled for, in ascending order.
 template <shader_id... Sizes>
 struct table_sizes {
-  static constexpr std::size_t values[] = {Sizes...};
+  static constexpr std::size_t values[sizeof...(Sizes)] = {Sizes...};
   static constexpr std::size_t largest = values[sizeof...(Sizes) - 1];
 
   /// The first one that has room for `shaders` shaders and the requests that name none; the largest

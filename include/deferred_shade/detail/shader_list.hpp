@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <type_traits>
 #include <utility>
 
 #include <deferred_shade/config.hpp>
+#include <deferred_shade/detail/bits.hpp>
 #include <deferred_shade/detail/device_lambda.hpp>
 #include <deferred_shade/types.hpp>
 
@@ -44,6 +46,26 @@ DEFERRED_SHADE_HOST_DEVICE constexpr Shader const& shader_in(
     table_slot<Id, Shader> const& slot) noexcept {
   return slot.shader;
 }
+
+template <class T>
+inline constexpr char tag_of_type = 0;
+
+/// Which types of a list are equal. By constants: a template for each pair would take long to
+/// compile.
+template <class... T>
+struct equal_types {
+  /// For the first of equal types, their number; for the others, 0.
+  std::size_t count[sizeof...(T)] = {};
+
+  constexpr equal_types() {
+    void const* const tags[] = {&tag_of_type<T>...};
+    for (std::size_t i = 0; i < sizeof...(T); ++i) {
+      std::size_t first = 0;
+      while (tags[first] != tags[i]) ++first;
+      ++count[first];
+    }
+  }
+};
 
 /// The shaders of a table: the part of it that kernels are given.
 template <class... Shaders>
@@ -99,6 +121,10 @@ class shader_list {
   // first, because clang limits the depth of a fold to 256.
   static constexpr shader_id leaf_size = 32;
 
+  template <shader_id Id>
+  using type_at =
+      std::decay_t<decltype(detail::shader_in<Id>(std::declval<table_of<Shaders...> const&>()))>;
+
   struct call_with {
     request_index i;
     DEFERRED_SHADE_EXEC_CHECK_DISABLE
@@ -125,16 +151,39 @@ class shader_list {
 
   DEFERRED_SHADE_EXEC_CHECK_DISABLE
   template <shader_id First, class Function, shader_id... Offsets>
-  DEFERRED_SHADE_HOST_DEVICE void visit_leaf(shader_id id, Function const& f,
-                                             std::integer_sequence<shader_id, Offsets...>) const {
-    (void)((id == First + Offsets && visit_one<First + Offsets>(f)) || ...);
+  DEFERRED_SHADE_HOST_DEVICE void visit_leaf(
+      shader_id id, Function const& f, std::integer_sequence<shader_id, Offsets...> leaf) const {
+    (void)(visit_type<First, First + Offsets>(id, f, leaf) || ...);
   }
 
+  // Whether `id` names a shader of the type of shader `Id`, which is visited then. Shaders of one
+  // type share one copy of the code, which the first of them stands for: compilers would make a
+  // copy of each, and lanes in different copies do not run together.
   DEFERRED_SHADE_EXEC_CHECK_DISABLE
-  template <shader_id Id, class Function>
-  DEFERRED_SHADE_HOST_DEVICE bool visit_one(Function const& f) const {
-    if constexpr (has<Id>) f(get<Id>());
-    return true;
+  template <shader_id First, shader_id Id, class Function, shader_id... Offsets>
+  DEFERRED_SHADE_HOST_DEVICE bool visit_type(shader_id id, Function const& f,
+                                             std::integer_sequence<shader_id, Offsets...>) const {
+    constexpr equal_types<type_at<First + Offsets>...> types;
+    if constexpr (types.count[Id - First] == 1) {
+      if (id != Id) return false;
+      if constexpr (has<Id>) f(get<Id>());
+      return true;
+    } else if constexpr (types.count[Id - First] > 1) {
+      type_at<Id> const* shader = nullptr;
+      (choose<First + Offsets>(id, shader), ...);
+      if (shader == nullptr) return false;
+      if constexpr (has<Id>) f(*shader);
+      return true;
+    } else {
+      return false;  // one before it stands for it
+    }
+  }
+
+  template <shader_id Id, class Shader>
+  DEFERRED_SHADE_HOST_DEVICE void choose(shader_id id, Shader const*& shader) const {
+    if constexpr (std::is_same_v<type_at<Id>, Shader>) {
+      if (id == Id) shader = detail::address_of(get<Id>());
+    }
   }
 
   DEFERRED_SHADE_EXEC_CHECK_DISABLE

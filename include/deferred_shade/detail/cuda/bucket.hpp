@@ -2,10 +2,10 @@
 #pragma once
 
 #include <deferred_shade/detail/cuda/architectures.hpp>
-#include <deferred_shade/detail/cuda/large_bucket.hpp>
+#include <deferred_shade/detail/cuda/counter_bucket.hpp>
+#include <deferred_shade/detail/cuda/lane_bucket.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
 #include <deferred_shade/detail/cuda/radix_sort.hpp>
-#include <deferred_shade/detail/cuda/small_bucket.hpp>
 #include <deferred_shade/detail/cuda/tuning.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/types.hpp>
@@ -25,12 +25,12 @@ grouping bucket_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Work
     static_assert(
         Shaders <= warp_size,
         "deferred_shade: cuda_tuning::bucket must not choose lanes for more than 32 shaders");
-    return detail::small_bucket_grouping<Shaders>(detail::stream_of(exec), n, ids, scratch);
+    return detail::lane_bucket_grouping<Shaders>(detail::stream_of(exec), n, ids, scratch);
   } else if constexpr (algorithm == bucket_algorithm::counters) {
     static_assert(
         Shaders <= 511,
         "deferred_shade: cuda_tuning::bucket must not choose counters for more than 511 shaders");
-    return detail::large_bucket_grouping<Shaders>(detail::stream_of(exec), n, ids, scratch);
+    return detail::counter_bucket_grouping<Shaders>(detail::stream_of(exec), n, ids, scratch);
   } else {
     return detail::radix_grouping<Shaders>(cuda_system{}, exec, n, ids, scratch);
   }

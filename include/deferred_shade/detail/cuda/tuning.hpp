@@ -53,7 +53,7 @@ DEFERRED_SHADE_HOST_DEVICE constexpr std::uint32_t place_blocks(shader_id shader
   return detail::counts_in_registers(shaders) ? 6 : 4;
 }
 /// The same for tables whose counters lie in shared memory.
-inline constexpr std::uint32_t large_place_blocks = 3;
+inline constexpr std::uint32_t counter_place_blocks = 3;
 
 /// Threads that scan the counts of one shader: the largest block, because a batch has only as many
 /// such blocks as shaders.

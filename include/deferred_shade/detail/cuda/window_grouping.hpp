@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include <deferred_shade/detail/cuda/architectures.hpp>
+#include <deferred_shade/detail/cuda/lane_bucket.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
-#include <deferred_shade/detail/cuda/small_bucket.hpp>
 #include <deferred_shade/detail/cuda/tuning.hpp>
 #include <deferred_shade/detail/cuda/warp.hpp>
 #include <deferred_shade/types.hpp>
@@ -83,15 +83,20 @@ window_grouping group_windows(cudaStream_t stream, Count n, Ids ids, Workspace& 
   [[maybe_unused]] auto const grouped = scratch.begin_phase({"group"});
   std::size_t const maximum = detail::maximum_of(n);
   std::size_t const tiles = detail::blocks_for(maximum, bucket_tile);
-  auto const [sorted, counts, used] =
-      scratch.take(elements<std::uint32_t>(maximum), elements<std::uint32_t>(tiles * Shaders),
-                   elements<std::uint32_t>(detail::blocks_for(maximum, window_size)));
+  using passes = two_passes<Shaders, Ids>;
+  using first_ids = typename passes::first;
+  using second_ids = typename passes::second;
   using output = window_output<Shaders>;
+  auto const [sorted, counts, used, copy] = scratch.take(
+      elements<std::uint32_t>(maximum), elements<std::uint32_t>(tiles * Shaders),
+      elements<std::uint32_t>(detail::blocks_for(maximum, window_size)), passes::memory(maximum));
   launch_shape const shape{tiles, bucket_threads};
-  detail::launch<&small_bucket_count_kernel<Shaders, Count, Ids>>(
-      "window count", stream, shape, n, ids, tile_count_layout{1, Shaders}, counts);
-  detail::launch<&small_bucket_place_kernel<Shaders, Count, Ids, output>>(
-      "window place", stream, shape, n, ids, output{counts, sorted, used});
+  detail::launch<&lane_bucket_count_kernel<Shaders, Count, first_ids>>(
+      "window count", stream, shape, n, passes::read_first(ids, copy),
+      tile_count_layout{1, Shaders}, counts);
+  detail::launch<&lane_bucket_place_kernel<Shaders, passes::copies, Count, second_ids, output>>(
+      "window place", stream, shape, n, passes::read_second(ids, copy),
+      output{counts, sorted, used});
   return {sorted, used};
 }
 

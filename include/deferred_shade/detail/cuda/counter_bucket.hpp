@@ -23,7 +23,7 @@ inline namespace DEFERRED_SHADE_ARCHITECTURES {
 /// neighbouring requests and adds once for each run of equal ids.
 template <shader_id Shaders, class Count, class Ids>
 __global__ void __launch_bounds__(bucket_threads)
-    large_bucket_count_kernel(Count n, Ids ids, std::uint32_t* counts) {
+    counter_bucket_count_kernel(Count n, Ids ids, std::uint32_t* counts) {
   __shared__ std::uint32_t shared[Shaders + 1];
   detail::begin_after_earlier_kernels();
   for (std::uint32_t k = threadIdx.x; k <= Shaders; k += bucket_threads) shared[k] = 0;
@@ -49,9 +49,10 @@ __global__ void __launch_bounds__(bucket_threads)
 /// shader.
 template <shader_id Shaders, class Count, class Ids>
 __global__ void __launch_bounds__(bucket_threads,
-                                  blocks_that_fit(large_place_blocks, bucket_threads))
-    large_bucket_place_kernel(Count n, Ids ids, std::uint32_t const* places,
-                              request_index* permutation, request_index* offsets) {
+                                  blocks_that_fit(counter_place_blocks, bucket_threads))
+    counter_bucket_place_kernel(Count n, Ids ids, std::uint32_t const* places,
+                                request_index* permutation, request_index* offsets,
+                                std::uint32_t* progress) {
   using sort = tile_sort<Shaders, bucket_threads, bucket_items>;
   __shared__ union {
     typename sort::temporary_storage sorting;
@@ -69,7 +70,9 @@ __global__ void __launch_bounds__(bucket_threads,
   for (std::uint32_t k = threadIdx.x; k < Shaders; k += bucket_threads) {
     std::uint32_t const place = places[k * gridDim.x + blockIdx.x];
     shift[k] = place - starts[k];
-    if (blockIdx.x == 0) offsets[k] = place;
+    if (blockIdx.x != 0) continue;
+    offsets[k] = place;
+    progress[2 * k] = progress[2 * k + 1] = 0;
   }
   if (blockIdx.x == 0 && threadIdx.x == 0) offsets[Shaders] = places[Shaders * gridDim.x];
 #pragma unroll
@@ -88,7 +91,7 @@ __global__ void __launch_bounds__(bucket_threads,
 }
 
 template <shader_id Shaders, class Count, class Ids, class Workspace>
-grouping large_bucket_grouping(cudaStream_t stream, Count n, Ids ids, Workspace& scratch) {
+grouping counter_bucket_grouping(cudaStream_t stream, Count n, Ids ids, Workspace& scratch) {
   std::size_t const maximum = detail::maximum_of(n);
   std::size_t const tiles = (std::max)(std::size_t{1}, (maximum + bucket_tile - 1) / bucket_tile);
   auto const scan = [&](void* memory, std::size_t& bytes, std::uint32_t* counts) {
@@ -100,16 +103,21 @@ grouping large_bucket_grouping(cudaStream_t stream, Count n, Ids ids, Workspace&
   detail::forget_earlier_error();
   std::size_t bytes = 0;
   scan(nullptr, bytes, nullptr);
-  auto const [permutation, counts, memory, offsets] =
+  using passes = two_passes<Shaders, Ids>;
+  using first_ids = typename passes::first;
+  using second_ids = typename passes::second;
+  auto const [permutation, counts, memory, offsets, progress, copy] =
       scratch.take(elements<request_index>(maximum), elements<std::uint32_t>(tiles * Shaders + 1),
-                   elements<std::byte>(bytes), elements<request_index>(Shaders + 1));
+                   elements<std::byte>(bytes), elements<request_index>(Shaders + 1),
+                   elements<std::uint32_t>(2 * Shaders), passes::memory(maximum));
   launch_shape const shape{tiles, bucket_threads};
-  detail::launch<&large_bucket_count_kernel<Shaders, Count, Ids>>("bucket count", stream, shape, n,
-                                                                  ids, counts);
+  detail::launch<&counter_bucket_count_kernel<Shaders, Count, first_ids>>(
+      "bucket count", stream, shape, n, passes::read_first(ids, copy), counts);
   scan(memory, bytes, counts);
-  detail::launch<&large_bucket_place_kernel<Shaders, Count, Ids>>(
-      "bucket place", stream, shape, n, ids, counts, permutation, offsets);
-  return {permutation, offsets, maximum};
+  detail::launch<&counter_bucket_place_kernel<Shaders, Count, second_ids>>(
+      "bucket place", stream, shape, n, passes::read_second(ids, copy), counts, permutation,
+      offsets, progress);
+  return {permutation, offsets, maximum, progress};
 }
 
 }  // namespace DEFERRED_SHADE_ARCHITECTURES

@@ -32,7 +32,7 @@ struct tile_count_layout {
 /// Counts the requests of each shader in each tile.
 template <shader_id Shaders, class Count, class Ids>
 __global__ void __launch_bounds__(bucket_threads)
-    small_bucket_count_kernel(Count n, Ids ids, tile_count_layout layout, std::uint32_t* counts) {
+    lane_bucket_count_kernel(Count n, Ids ids, tile_count_layout layout, std::uint32_t* counts) {
   __shared__ tile_counts<Shaders> counters;
   detail::begin_after_earlier_kernels();
   counters.count(ids, tile_of_block(detail::size_of(n)),
@@ -41,17 +41,20 @@ __global__ void __launch_bounds__(bucket_threads)
 
 /// Sorts every tile and writes each request to the place that `Output` gives for its shader and
 /// tile.
-template <shader_id Shaders, class Count, class Ids, class Output>
+///
+/// If `ids` are the renderer's, the kernel that counted has waited for them; if they are a copy,
+/// that kernel writes them.
+template <shader_id Shaders, bool Copied, class Count, class Ids, class Output>
 __global__ void __launch_bounds__(bucket_threads,
                                   blocks_that_fit(place_blocks(Shaders), bucket_threads))
-    small_bucket_place_kernel(Count n, Ids ids, Output output) {
+    lane_bucket_place_kernel(Count n, Ids ids, Output output) {
   __shared__ sorted_bucket_tile<Shaders> sorted;
   __shared__ typename Output::shared_memory shared;
-  // The kernel that counted has waited for the ids: only its own counts may still be missing.
   detail::let_next_kernel_start();
+  if (Copied) detail::wait_for_earlier_kernels();
   tile_of_block const tile(detail::size_of(n));
   auto const [start, used] = sorted.sort(ids, tile);
-  detail::wait_for_earlier_kernels();
+  if (!Copied) detail::wait_for_earlier_kernels();  // for the counts
   output.prepare(shared);
   __syncthreads();
   std::uint32_t const shift = output.place_of_lane(shared) - start;
@@ -69,11 +72,11 @@ __global__ void __launch_bounds__(bucket_threads,
 /// sets totals[k] to the number of all its requests.
 template <std::uint32_t Threads = bucket_scan_threads>
 __global__ void __launch_bounds__(Threads)
-    small_bucket_scan_kernel(std::uint32_t tiles, std::uint32_t* counts, std::uint32_t* totals) {
+    lane_bucket_scan_kernel(std::uint32_t tiles, std::uint32_t* counts, std::uint32_t* totals) {
   using block_scan = cub::BlockScan<std::uint32_t, Threads>;
   constexpr std::uint32_t items = 4;
   __shared__ typename block_scan::TempStorage shared;
-  detail::let_next_kernel_start();  // as in small_bucket_place_kernel
+  detail::let_next_kernel_start();  // as in lane_bucket_place_kernel
   detail::wait_for_earlier_kernels();
   std::uint32_t* const row = counts + std::size_t{blockIdx.x} * tiles;
   std::uint32_t total = 0;
@@ -101,6 +104,7 @@ struct bucket_output {
   std::uint32_t const* totals;
   request_index* permutation;
   request_index* offsets;
+  std::uint32_t* progress;
 
   struct shared_memory {};
 
@@ -113,6 +117,7 @@ struct bucket_output {
     std::uint32_t const offset = detail::exclusive_sum_of_warp(total);
     if (blockIdx.x == 0 && threadIdx.x == lane && lane < Shaders) {
       offsets[lane] = offset;
+      progress[2 * lane] = progress[2 * lane + 1] = 0;
       if (lane == Shaders - 1) offsets[Shaders] = offset + total;
     }
     return offset + (lane < Shaders ? earlier[lane * gridDim.x + blockIdx.x] : 0);
@@ -124,22 +129,28 @@ struct bucket_output {
 };
 
 template <shader_id Shaders, class Count, class Ids, class Workspace>
-grouping small_bucket_grouping(cudaStream_t stream, Count n, Ids ids, Workspace& scratch) {
+grouping lane_bucket_grouping(cudaStream_t stream, Count n, Ids ids, Workspace& scratch) {
   std::size_t const maximum = detail::maximum_of(n);
   std::size_t const tiles = (std::max)(std::size_t{1}, detail::blocks_for(maximum, bucket_tile));
-  auto const [permutation, counts, totals, offsets] =
-      scratch.take(elements<request_index>(maximum), elements<std::uint32_t>(tiles * Shaders),
-                   elements<std::uint32_t>(Shaders), elements<request_index>(Shaders + 1));
+  using passes = two_passes<Shaders, Ids>;
+  using first_ids = typename passes::first;
+  using second_ids = typename passes::second;
   using output = bucket_output<Shaders>;
+  auto const [permutation, counts, totals, offsets, progress, copy] =
+      scratch.take(elements<request_index>(maximum), elements<std::uint32_t>(tiles * Shaders),
+                   elements<std::uint32_t>(Shaders), elements<request_index>(Shaders + 1),
+                   elements<std::uint32_t>(2 * Shaders), passes::memory(maximum));
   auto const row = static_cast<std::uint32_t>(tiles);
   launch_shape const shape{tiles, bucket_threads};
-  detail::launch<&small_bucket_count_kernel<Shaders, Count, Ids>>(
-      "bucket count", stream, shape, n, ids, tile_count_layout{row, 1}, counts);
-  detail::launch<&small_bucket_scan_kernel<>>("bucket scan", stream, {Shaders, bucket_scan_threads},
-                                              row, counts, totals);
-  detail::launch<&small_bucket_place_kernel<Shaders, Count, Ids, output>>(
-      "bucket place", stream, shape, n, ids, output{counts, totals, permutation, offsets});
-  return {permutation, offsets, maximum};
+  detail::launch<&lane_bucket_count_kernel<Shaders, Count, first_ids>>(
+      "bucket count", stream, shape, n, passes::read_first(ids, copy), tile_count_layout{row, 1},
+      counts);
+  detail::launch<&lane_bucket_scan_kernel<>>("bucket scan", stream, {Shaders, bucket_scan_threads},
+                                             row, counts, totals);
+  detail::launch<&lane_bucket_place_kernel<Shaders, passes::copies, Count, second_ids, output>>(
+      "bucket place", stream, shape, n, passes::read_second(ids, copy),
+      output{counts, totals, permutation, offsets, progress});
+  return {permutation, offsets, maximum, progress};
 }
 
 }  // namespace DEFERRED_SHADE_ARCHITECTURES
