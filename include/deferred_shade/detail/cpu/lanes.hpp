@@ -10,7 +10,7 @@
 #include <deferred_shade/config.hpp>
 #include <deferred_shade/detail/bits.hpp>
 
-// Records laid out word by word, so that a vector holds the same member of neighbouring records.
+// Records laid out word by word: a vector holds the same member of neighbouring records.
 
 namespace deferred_shade::detail {
 
