@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Record shaders: pure functions from a request to a result. Where requests come from and where
-// results go is said once for the whole table.
+// Record shaders: pure functions from a request to a result. The table names the source of requests
+// and the sink of results once, for all its shaders.
 #include <thrust/execution_policy.h>
 #include <thrust/iterator/transform_iterator.h>
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A schedule is a function object: this one stands in largest_first_then_dispatch.hpp, outside the
-// library, and is passed where any other would be.
+// A schedule is a function object. This one, from largest_first_then_dispatch.hpp, is not the
+// library's, and is passed like any other.
 #include <thrust/system/cpp/execution_policy.h>
 #include <cstdint>
 #include <cstdio>

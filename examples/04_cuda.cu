@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A batch on a GPU: the number of requests stays in device memory, and the whole step is captured
-// into a CUDA graph once and launched for every bounce.
+// A batch on a GPU. The number of requests stays in device memory. The whole step is captured into
+// a CUDA graph once, and launched for every bounce.
 #include <thrust/device_vector.h>
 #include <thrust/host_vector.h>
 #include <cstdint>

@@ -8,8 +8,8 @@
 #include <deferred_shade/shader_table.hpp>
 #include <numeric>
 
-/// A schedule of one's own: group by bucketing, then run the shader with the most requests first,
-/// so that the short launches fill the gaps at the end.
+/// A renderer's own schedule. Groups by buckets, then runs the shader with the most requests first:
+/// short launches fill the gaps at the end.
 struct largest_first_then_dispatch {
   template <class Policy, class Ids, class... Shaders, class Workspace>
   void operator()(Policy const& exec, deferred_shade::request_index n, Ids ids,

@@ -92,7 +92,7 @@ TEST_CASE("a shader may be over-aligned, empty, or without a default", "[shader_
 
 namespace {
 
-/// Fails to compile where it is asked for the shader of a left-out id.
+/// Fails to compile if it is asked for the shader of a left-out id.
 struct taking_noting {
   std::vector<std::uint32_t>* seen;
   void operator()(noting const& shader) const { seen->push_back(shader.id); }

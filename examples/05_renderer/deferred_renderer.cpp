@@ -41,7 +41,7 @@ struct renderer {
   ds::workspace<> scratch;
 };
 
-// Knuth's linear congruential generator for MMIX: a number in [0, 1) of its highest bits.
+// Knuth's linear congruential generator for MMIX: a number in [0, 1) from its highest bits.
 float uniform(std::uint64_t& state) {
   state = 6364136223846793005U * state + 1442695040888963407U;
   return static_cast<float>(state >> 40) * 0x1p-24F;
@@ -80,7 +80,7 @@ void intersect(renderer& r, std::uint32_t i) {
   r.materials[i] = o.made_of;
 }
 
-// Sends path i on. It may end by chance, the darker it gets; if not, it makes up for those that do.
+// Continues path i. Russian roulette may end it if it is dark; survivors get a larger weight.
 void scatter(renderer& r, std::uint32_t i, vec direction, vec weight) {
   vec const t = r.throughput[i] * weight;
   float const survival = std::min(1.0F, std::max({t.x, t.y, t.z}));
@@ -91,7 +91,7 @@ void scatter(renderer& r, std::uint32_t i, vec direction, vec weight) {
   r.rays[i] = {r.hits[i].point + off * r.hits[i].normal, direction};
 }
 
-// About the normal, as likely as its cosine: a point of the unit disk, lifted to the sphere.
+// A direction with cosine density: a point of the unit disk, lifted to the hemisphere.
 void scatter_diffusely(renderer& r, std::uint32_t i, vec albedo) {
   float x = 0, y = 0, square = 1;
   while (square >= 1) {
@@ -119,7 +119,7 @@ void shade_mirror(renderer& r, std::uint32_t i) {
   scatter(r, i, reflected(r.rays[i].direction, h.normal), h.surface->colour);
 }
 
-// Reflects or refracts, as likely as Fresnel's equations say for light that is not polarised.
+// Reflects or refracts, with the probability of Fresnel's equations for unpolarised light.
 void shade_glass(renderer& r, std::uint32_t i) {
   hit const& h = r.hits[i];
   vec const d = r.rays[i].direction;

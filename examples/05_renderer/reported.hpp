@@ -7,8 +7,8 @@
 #include <deferred_shade/statistics.hpp>
 #include <vector>
 
-/// A schedule that does what `Schedule` does, and says how coherent the batch was and how long it
-/// took to shade. For policies that return when the batch is shaded, those for CPUs.
+/// Runs `Schedule`, and prints the efficiency of the batch and the time of shading. For CPU
+/// policies, which return when the batch is shaded.
 template <class Schedule>
 struct reported {
   template <class Policy, class Ids, class... Shaders, class Workspace>

@@ -16,7 +16,7 @@ struct ray {
   vec origin, direction;
 };
 
-/// A sphere of some material, or the floor, y = 0, where its radius is 0.
+/// A sphere of some material, or, if its radius is 0, the floor, y = 0.
 struct object {
   material made_of;
   vec colour;  // a lamp's radiance, else what is reflected
@@ -41,10 +41,10 @@ inline float distance(object const& o, ray const& r) {
   return middle - half > 0 ? middle - half : middle + half > 0 ? middle + half : none;
 }
 
-/// Balls just above a floor, under a lamp. They touch nothing: rays start a little off what they
-/// leave, and would get inside. The first object is the sky, a ball around all paths, so that every
-/// ray hits something. In the furnace, surfaces are white and all light has radiance 1: what is
-/// seen has radiance 1.
+/// Balls just above a floor, under a lamp. They do not touch: rays start a little off a surface,
+/// and would get inside a touching ball. The first object is the sky, a ball around all paths:
+/// every ray hits something. In the furnace, surfaces are white and all light has radiance 1: the
+/// picture has radiance 1.
 struct scene {
   std::vector<object> objects{
       {lamp, {0.25F, 0.375F, 0.5F}, {0, 0, 0}, 1000},
@@ -59,7 +59,7 @@ struct scene {
     for (object& o : objects) o.colour = o.dark = {1, 1, 1};
   }
 
-  /// The object that a ray hits first; `t` becomes how far along the ray.
+  /// The object that a ray hits first. Sets `t` to the distance along the ray.
   object const& first_hit(ray const& r, float& t) const {
     std::size_t first = 0;
     t = std::numeric_limits<float>::infinity();

@@ -23,7 +23,7 @@ namespace deferred_shade {
 /// HPG 2009; over a grouping, the second half of its schedules 3 and 5. On CUDA, record shaders
 /// load and store outside of the switch (docs/gpu.md).
 struct implicit_serialization {
-  /// It takes none of a workspace.
+  /// Takes no workspace.
   template <class Policy>
   static constexpr std::size_t workspace_bytes(Policy const&, std::size_t, std::size_t) {
     return 0;
@@ -55,7 +55,7 @@ struct implicit_serialization {
 ///
 ///     struct marble { static constexpr int block_size = 128; /* ... */ };
 struct explicit_serialization {
-  /// It takes none of a workspace.
+  /// Takes no workspace.
   template <class Policy>
   static constexpr std::size_t workspace_bytes(Policy const&, std::size_t, std::size_t) {
     return 0;

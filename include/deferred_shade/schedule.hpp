@@ -101,7 +101,7 @@ struct bucket_then_dispatch {
 /// tiles are small, and a switch runs over the sorted requests.
 template <class Sort = counting>
 struct local_sort_then_dispatch {
-  /// It takes none of a workspace.
+  /// Takes no workspace.
   template <class Policy>
   static constexpr std::size_t workspace_bytes(Policy const&, std::size_t, std::size_t) {
     return 0;

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-// What the programs of this folder have in common: a right call but for one argument.
+// What the programs of this folder have in common: a call that is right except for one argument.
 
 namespace ds = deferred_shade;
 

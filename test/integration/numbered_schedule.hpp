@@ -9,7 +9,7 @@
 #include "test/support/every_schedule.hpp"
 
 /// The schedule of the library whose number, from 0, the environment variable SCHEDULE has,
-/// reported. Ends the program with 2 where there is none.
+/// reported. Ends the program with 2 if there is none.
 struct numbered_schedule {
   template <class Policy, class Ids, class... Shaders, class Workspace>
   void operator()(Policy const& exec, deferred_shade::request_index n, Ids ids,

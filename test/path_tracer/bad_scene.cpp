@@ -29,7 +29,7 @@ void check_scene(std::string const& bytes, std::string const& words) {
   CHECK(folder.names() == std::vector<std::string>{"scene.gltf"});
 }
 
-/// One value of the fixture's JSON replaced, or removed where there is none.
+/// One value of the fixture's JSON replaced, or removed if there is none.
 struct spoiled {
   char const *pointer, *value, *words;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program built for other numbers and other records (DEFERRED_SHADE_BUILD_ACCURACIES): the same
-// random numbers make the same paths, but for those that rounding sends elsewhere.
+// random numbers make the same paths, except for those that rounding sends elsewhere.
 #include <algorithm>
 #include <cmath>
 #include <cstring>

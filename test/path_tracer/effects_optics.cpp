@@ -189,7 +189,7 @@ TEST_CASE("limits of a thin film", "[effects]") {
   CHECK_THAT(none(1).y, WithinAbs(0.2, 1e-5));
   CHECK_THAT(none(1).z, WithinAbs(0.6, 1e-5));
   CHECK_THAT(none(0).y, WithinAbs(1, 1e-4));
-  // Nothing is not a number where there is no film, or nothing below it.
+  // No value is NaN without a film, or with nothing below the film.
   for (float const film : {1.0f, 1.3f})
     for (float const thickness : {0.0f, 400.0f})
       for (float const f0 : {0.0f, 0.04f, 1.0f})

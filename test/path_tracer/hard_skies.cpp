@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t width = 64, height = 32, bright_x = 40, bright_y = 9;
 
-/// A matte patch under a sky that is black but for one texel.
+/// A matte patch under a sky that is black except for one texel.
 scene under_sky(float bright, float elsewhere) {
   scene s;
   s.materials.resize(1);

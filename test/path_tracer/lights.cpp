@@ -125,7 +125,7 @@ TEST_CASE("a light is picked in proportion to its power, and reports that densit
 }
 
 TEST_CASE("rounding of equal lights' powers does not decide which one is drawn", "[lights]") {
-  // The bright one's triangles, each less one of the other's, are the mean but for rounding.
+  // The bright one's triangles, each less one of the other's, are the mean except for rounding.
   float const bright = GENERATE(1.5f, 1.6f, 1.9f);
   std::vector<std::uint32_t> aliases;
   for (float const ulps : {-2.f, -1.f, 0.f, 1.f, 2.f}) {

@@ -44,7 +44,7 @@ class device_batch {
   auto table() { return tracing_table<shaders>(raw(value_), raw(runs_)); }
 
   /// The first request whose trace, as it was fetched, is not what a loop over `count` requests
-  /// leaves; the size of the batch where there is none.
+  /// leaves; the size of the batch if there is none.
   std::size_t first_wrong(std::uint32_t count) const {
     trace<cpp> const expected = traced_by_loop<shaders>(n_, host_ids_.data(), count);
     return std::min(first_difference(host_runs_, expected.runs),

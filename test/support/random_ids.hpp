@@ -12,8 +12,8 @@
 
 namespace test {
 
-/// The seed of this run: DEFERRED_SHADE_TEST_SEED where it is set, else a fresh one. A test prints
-/// it with CAPTURE, so that a failure can be run again.
+/// The seed of this run: DEFERRED_SHADE_TEST_SEED if it is set, else a fresh one. A test prints it
+/// with CAPTURE: a failure can then be run again.
 inline std::uint32_t run_seed() {
   static std::uint32_t const seed = [] {
     char const* const text = std::getenv("DEFERRED_SHADE_TEST_SEED");

@@ -12,8 +12,8 @@
 
 namespace test {
 
-/// How far `got` is from `exact` in units in the last place: 0.5, the most that it can be, where
-/// `exact` rounds to `got`, the same infinity included; 0 where both are NaN.
+/// How far `got` is from `exact` in units in the last place: 0.5, the most that it can be, if
+/// `exact` rounds to `got`, the same infinity included; 0 if both are NaN.
 inline double error_in_ulp(float got, long double exact) {
   double const infinity = std::numeric_limits<double>::infinity();
   auto const rounded = static_cast<float>(exact);

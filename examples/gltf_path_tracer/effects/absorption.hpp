@@ -8,9 +8,9 @@
 
 namespace path_tracer::effects {
 
-/// Glass that takes up light on the way through it (KHR_materials_volume): exp(-extinction *
-/// length), Beer and Lambert's law. It holds for the part of a path that ends at the inner side of
-/// glass; what lies embedded in the glass is seen without it.
+/// Glass that absorbs light (KHR_materials_volume): exp(-extinction * length), Beer and Lambert's
+/// law. It applies to path segments that end at the inner side of glass, not to those that end at
+/// an object inside the glass.
 struct absorption {
   static constexpr char const* name = "absorption";
   struct material_part {

@@ -8,8 +8,8 @@
 
 namespace path_tracer {
 
-/// GGX of two roughnesses, along the axes x and y of a frame that is turned against that of the
-/// surface (Heitz 2014, section 5.3).
+/// GGX with two roughnesses, along the axes x and y of a frame that is rotated relative to the
+/// surface's (Heitz 2014, section 5.3).
 struct turned_ggx {
   real alpha_x, alpha_y;
   real cosine, sine;  ///< of the angle from the tangent to the x axis

@@ -10,16 +10,16 @@
 
 namespace path_tracer::effects {
 
-/// The refractive index at a wavelength in nanometres of a glass that has the index `ior` at 587.6
-/// nm, as KHR_materials_dispersion has it: by Cauchy's formula from the Abbe number, which is 20 /
+/// The refractive index at a wavelength in nanometres, of a glass with index `ior` at 587.6 nm. As
+/// in KHR_materials_dispersion, Cauchy's formula gives it from the Abbe number, which is 20 /
 /// `dispersion`.
 PT_HD inline real dispersive_ior(real ior, real dispersion, real wavelength) {
   real const spread = (ior - 1) * dispersion / 20;
   return glm::max(ior + spread * (523655 / (wavelength * wavelength) - real(1.5168)), real(1));
 }
 
-/// Glass that bends colours differently (KHR_materials_dispersion). At the first such glass a path
-/// takes one wavelength for the rest of its way, and its throughput the colour of that.
+/// Glass that refracts colours differently (KHR_materials_dispersion). At the first such glass, a
+/// path chooses one wavelength for all later bounces, and its throughput takes the colour of that.
 struct dispersion {
   static constexpr char const* name = "dispersion";
   struct material_part {

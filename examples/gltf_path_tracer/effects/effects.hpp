@@ -56,8 +56,8 @@ using all_effects = effect_list<
     effects::depth_of_field>;
 // clang-format on
 
-/// The sets of effects that there is code for, besides the whole: a scene is rendered with the
-/// smallest that has all that it calls for. Each is compiled once per backend.
+/// The sets of effects that code is compiled for, besides the set of all. The smallest set that has
+/// all effects of a scene renders it. Each set is compiled once per backend.
 template <class... Effects>
 struct effects_of {};
 using declared_sets =

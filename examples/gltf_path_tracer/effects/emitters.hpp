@@ -6,8 +6,8 @@
 
 namespace path_tracer::effects {
 
-/// Surfaces that shine; paths that hit them collect their light, and next-event estimation aims at
-/// them from everywhere else. Below the emission they are matte.
+/// Surfaces that emit light. Paths that hit them collect it, and next-event estimation samples them
+/// from all other surfaces. Apart from the emission, they are matte.
 struct emitters {
   static constexpr char const* name = "emitters";
 

@@ -8,8 +8,8 @@
 
 namespace path_tracer::effects {
 
-/// Light from all around, as a picture has it: `extras` of a scene name an equirectangular .hdr
-/// file, next to the scene's, as "environment". Light samples aim at its bright parts.
+/// Light from all directions, from a picture: "environment" in the `extras` of a scene names an
+/// equirectangular .hdr file beside the scene's. Light samples prefer its bright parts.
 struct environment {
   static constexpr char const* name = "environment";
   struct scene_part {

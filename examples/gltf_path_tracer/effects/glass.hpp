@@ -6,14 +6,14 @@
 
 namespace path_tracer::effects {
 
-/// Whether light goes through a material (KHR_materials_transmission).
+/// Whether a material transmits light (KHR_materials_transmission).
 template <class Material>
 bool is_glass(Material const& m) {
   return m.transmission > 0 && m.metallic < metal_from;
 }
 
-/// A dielectric interface that is as good as a mirror: below this roughness a GGX lobe
-/// (alpha < 0.0009) is narrower than a pixel.
+/// A perfectly smooth dielectric interface. Below this roughness, a GGX lobe (alpha < 0.0009) is
+/// narrower than a pixel.
 struct smooth_glass {
   static constexpr char const* name = "smooth-glass";
   static constexpr real below = real(0.03);

@@ -20,7 +20,7 @@ struct medium_view {
   }
 };
 
-/// Longer than any path in a scene, and times any coefficient still a number.
+/// Longer than any path in a scene; the product with any coefficient is finite.
 inline constexpr real endless = real(1e30);
 
 /// The phase function of Henyey and Greenstein (1941), per solid angle; `cosine` is 1 straight on.
@@ -41,8 +41,9 @@ PT_HD inline real sample_phase(real anisotropy, real u) {
 
 namespace effects {
 
-/// Fog: a homogeneous medium that fills all of space but the inside of glass, by `extras` of a
-/// scene. Light from infinitely far does not arrive where it takes anything away.
+/// Fog: a homogeneous medium that fills all space, except for the inside of glass. `extras` of a
+/// scene describe it. Light from infinitely far does not arrive in the channels that it
+/// extinguishes.
 struct medium {
   static constexpr char const* name = "medium";
   struct scene_part {
@@ -64,9 +65,9 @@ struct medium {
     return max_component(s.medium_scattering + s.medium_absorption) > 0;
   }
 
-  /// Draws how far a path goes before it meets a particle, at most to `surface`, where it else
-  /// arrives; true in the first case. The distance is drawn for one channel at random, and the
-  /// throughput makes up for that (one-sample balance heuristic, Veach 1997).
+  /// Samples the distance to the next particle, at most `surface`. Returns whether the path meets a
+  /// particle before the surface. The distance is sampled for one channel at random, and the
+  /// throughput compensates for that (one-sample balance heuristic, Veach 1997).
   template <class Batch, class View>
   PT_HD static bool scatters(Batch const& batch, View const& m, std::uint32_t i, real surface) {
     vec2 const u = batch.random(i).pair(path_draw::free_path + batch.bounce);

@@ -7,8 +7,8 @@
 
 namespace path_tracer {
 
-/// Where the corners of a triangle are when the shutter closes; in between they move in a straight
-/// line. (For a rotation that is a chord: keep the shutter short.)
+/// The corners of a triangle when the shutter closes. In between, they move in straight lines. (For
+/// a rotation that is a chord: keep the shutter short.)
 struct triangle_motion {
   vec3 position[3];
   vec3 normal[3];
@@ -16,9 +16,9 @@ struct triangle_motion {
 
 namespace effects {
 
-/// Nodes that a file animates, seen through a shutter that is open from `shutter_open` to
-/// `shutter_close`, seconds of the animation, by `extras` of the camera. Every path has a moment of
-/// its own. Of the animations, those of a node's translation, rotation and scale count.
+/// Animated nodes, seen through a shutter that is open from `shutter_open` to `shutter_close`, in
+/// seconds of the animation: `extras` of the camera. Every path has its own moment. Animations of a
+/// node's translation, rotation and scale count.
 struct motion_blur {
   static constexpr char const* name = "motion-blur";
   struct camera_part {

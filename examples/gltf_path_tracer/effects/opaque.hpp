@@ -4,8 +4,8 @@
 #include "effects/effect.hpp"
 #include "shading/bsdf.hpp"
 
-// The plain opaque materials: what is left of glTF's metallic-roughness model where one of its two
-// terms is nothing, and all of it.
+// The plain opaque materials: glTF's metallic-roughness model, and its special cases in which one
+// of its two terms is 0.
 namespace path_tracer::effects {
 
 /// A conductor.
@@ -37,7 +37,7 @@ struct matte {
   }
 };
 
-/// The whole metallic-roughness model: what no other shader fits.
+/// The whole metallic-roughness model, for materials that no other shader fits.
 struct plastic {
   static constexpr char const* name = "plastic";
 

@@ -14,7 +14,7 @@ void for_each(Function const& f) {
   for_each_effect(all_effects{}, f);
 }
 
-// Which of the members an effect has that effect.hpp lists.
+// Which of the members in effect.hpp an effect has.
 template <class E, class = void>
 constexpr bool has_prepare = false;
 template <class E>
@@ -87,7 +87,7 @@ deferred_shade::variants<typename ids_of<Sets>::type...> variants_of(effect_list
   return {};
 }
 
-/// Who calls for an effect, as `material 3 "lamp" and 2 more`; empty for nobody.
+/// What calls for an effect, as `material 3 "lamp" and 2 more`; empty if nothing does.
 template <class Effect>
 std::string callers(scene const& s, std::vector<bool> const& used) {
   std::string result;

@@ -24,11 +24,11 @@ effect_bits effects_named(std::string_view names);
 /// Gives a material the first shader of `allowed` that fits it, matte if none does.
 void choose_shader(material& m, effect_bits allowed);
 
-/// Takes all that is not in `allowed` out of a scene; its materials get the shaders that are left.
+/// Removes the effects that are not in `allowed` from a scene. Its materials get other shaders.
 void leave_out_others(scene& s, effect_bits allowed);
 
-/// The effects that a picture of the scene needs: of the materials that its triangles have, of its
-/// camera and its lights.
+/// The effects that a picture of the scene needs: those of its triangles' materials, its camera and
+/// its lights.
 effect_bits called_for(scene const& s);
 
 /// Their shaders, and that of rays which leave the scene.
@@ -37,8 +37,8 @@ std::bitset<shader_count> shaders_of(effect_bits effects);
 /// The names of all shaders, in the order of the table: those of their effects, then `miss`.
 std::vector<std::string_view> shader_names();
 
-/// The declared set of effects that covers these with the fewest, by its number; that of
-/// declared_sets, of which there is none, for all effects.
+/// The number of the smallest declared set that covers these effects; the number of declared sets,
+/// for the set of all effects, if none does.
 std::size_t variant_for(effect_bits effects);
 effect_bits effects_of_variant(std::size_t variant);
 

@@ -27,9 +27,9 @@ namespace path_tracer {
 /// than a pixel; that roughness then becomes 0.
 ///
 /// `extras` understood: "shader", "second_color", "pattern_scale" of a material, "background" of a
-/// scene, and those of the effects (docs/effects.md). What else the file holds and a picture could
-/// show is left out and named, one line for each kind, in scene::warnings. Clipping planes, aspect
-/// ratio and mip filters are left out silently.
+/// scene, and those of the effects (docs/effects.md). Anything else in the file that a picture
+/// could show is left out, and named in scene::warnings, in one line for each kind. Clipping
+/// planes, aspect ratio and mip filters are left out silently.
 ///
 /// Extensions understood: KHR_lights_punctual and KHR_materials_{emissive_strength, ior,
 /// transmission, specular} and those of the effects, all without their textures. Sparse accessors

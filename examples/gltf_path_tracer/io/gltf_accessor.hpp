@@ -50,8 +50,8 @@ struct elements {
   }
 };
 
-/// The elements of accessor number `index`, which errors call `name` of the element `where`. Throws
-/// std::runtime_error where it is sparse or leaves its buffer.
+/// The elements of accessor number `index`; errors call it `name` of the element `where`. Throws
+/// std::runtime_error if it is sparse or exceeds its buffer.
 elements open_accessor(document const& d, std::string const& where, int index,
                        std::string const& name);
 

@@ -13,7 +13,7 @@ namespace path_tracer::gltf {
 
 using nlohmann::json;
 
-/// What a file asks for and the renderer leaves out, counted by kind.
+/// Features of a file that the renderer leaves out, counted by kind.
 class omissions {
  public:
   void add(std::string const& what, std::string const& where);
@@ -41,15 +41,15 @@ struct document {
 /// Reads, checks and parses a file. Throws std::runtime_error.
 document read_document(std::string const& path);
 
-/// Holds `root` against the table of what the renderer understands. Throws std::runtime_error at
-/// the first value of a wrong type or out of range; returns the properties that the table does not
-/// have.
+/// Checks `root` against the table of properties that the renderer understands. Throws
+/// std::runtime_error at the first value of a wrong type or out of range. Returns the properties
+/// that the table does not have.
 omissions check(json const& root);
 
 /// `node 3 "lamp"`: element number `index` of the array `collection` of the file.
 std::string element(json const& root, std::string const& collection, std::size_t index);
 
-/// The value at a JSON pointer below `from`, or `otherwise` where there is none.
+/// The value at a JSON pointer below `from`, or `otherwise` if there is none.
 template <class T>
 T value_at(json const& from, char const* pointer, T otherwise) {
   json::json_pointer const p(pointer);

@@ -29,7 +29,7 @@ void append_mesh(document& d, std::size_t mesh, placement const& place, scene& o
 /// Appends all materials of the file, the default one after them, and the textures they use.
 void append_materials(document& d, scene& out);
 
-/// What animations make of a node at a moment; what they do not change, they leave empty.
+/// The animated values of a node at a moment; values that are not animated are empty.
 struct pose {
   std::vector<double> translation, rotation, scale;
 };
@@ -38,7 +38,7 @@ struct pose {
 class animations {
  public:
   animations() = default;
-  /// Throws std::runtime_error where an animation has keys that do not fit together.
+  /// Throws std::runtime_error if an animation has keys that do not fit together.
   explicit animations(document& d);
   pose at(std::size_t node, double seconds) const;
 

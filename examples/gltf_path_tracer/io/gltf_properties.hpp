@@ -7,7 +7,7 @@
 #include "effects/scene_effects.hpp"
 #include "io/gltf_document.hpp"
 
-// What effects ask of a file, see effect.hpp.
+// The properties that effects read from a file: see effect.hpp.
 namespace path_tracer::gltf {
 
 template <class Effect, class = void>
@@ -40,7 +40,7 @@ void for_each_property(Function const& f) {
   });
 }
 
-/// Takes the value of a property from the element `from` of a file, where it has one.
+/// Takes the value of a property from the element `from` of a file, if it has one.
 template <class Part>
 void read_property(json const& from, property<Part> const& p, Part& part) {
   json::json_pointer const at("/" + std::string(p.path));

@@ -3,9 +3,9 @@
 
 #include <limits>
 
-// What the renderer understands of glTF 2.0, as data: one rule for each property. Effects bring the
-// rules of what they read themselves. In a path, `*` stands for any element of an array and `@` for
-// the path before it that ends in `/*`.
+// The part of glTF 2.0 that the renderer understands, as data: one rule for each property. Effects
+// bring the rules of their own properties. In a path, `*` stands for any element of an array, and
+// `@` for the path before it that ends in `/*`.
 namespace path_tracer::gltf {
 
 enum class value_type { object, array, number, numbers, integer, index, boolean, text, anything };

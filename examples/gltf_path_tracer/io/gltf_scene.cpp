@@ -146,7 +146,7 @@ constexpr bool has_load = false;
 template <class Effect>
 constexpr bool has_load<Effect, std::void_t<decltype(&Effect::template load<scene>)>> = true;
 
-/// What effects read from files beside that of the scene.
+/// Loads the files beside the scene's that effects need.
 void load_files(std::string const& path, scene& s) {
   auto const slash = path.rfind('/');
   std::string const folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A file being written under a temporary name; without `commit` nothing of it stays.
+/// A file being written under a temporary name. Without `commit`, it is removed.
 class output_file {
  public:
   explicit output_file(std::string const& path) : path_(path), target_(path) {

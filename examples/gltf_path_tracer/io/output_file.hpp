@@ -6,13 +6,13 @@
 
 namespace path_tracer {
 
-/// Writes all of `bytes` to a file, or leaves what stood there before: they go to a temporary file
-/// in the same folder, which takes the name when everything has reached the disk. A symbolic link
+/// Writes all of `bytes` to a file, or leaves the old file unchanged. The bytes go to a temporary
+/// file in the same folder, which is renamed when everything has reached the disk. A symbolic link
 /// is followed; a device or a pipe is written to directly. Throws std::runtime_error with the path
-/// and the reason of the system.
+/// and the system's reason.
 void write_file(std::string const& path, std::string_view bytes);
 
-/// Throws as `write_file` would, for what can be known before there is anything to write.
+/// Throws the errors of `write_file` that can be known before there is anything to write.
 void check_writable(std::string const& path);
 
 }  // namespace path_tracer

@@ -7,7 +7,7 @@
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #include <tiny_gltf.h>
 
-// glTF knows PNG and JPEG; no other decoder is there to be attacked.
+// glTF has only PNG and JPEG. Other decoders would only add attack surface.
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_HDR

@@ -22,8 +22,9 @@ struct hit {
   std::uint32_t primitive = no_primitive;
 };
 
-/// An inner node: the boxes of its two children and where they are. A reference to a leaf has the
-/// top bit set, then 3 bits for the number of triangles less one, then 28 for the first triangle.
+/// An inner node: the boxes of its two children, and references to these. A reference to a leaf has
+/// the top bit set, then 3 bits for the number of triangles minus one, then 28 bits for the first
+/// triangle.
 struct alignas(64) bvh_node {
   real corner[2][2][3];  ///< of each child, the lower and the upper
   std::uint32_t child[2];
@@ -44,8 +45,8 @@ struct bvh_view {
   bvh_triangle const* triangles;
 };
 
-/// The ray in the terms of the watertight test of Woop, Benthin and Wald, JCGT 2013: the largest
-/// axis becomes z, and a shear makes the ray the z axis of unit length.
+/// The ray for the watertight test of Woop, Benthin and Wald, JCGT 2013: the largest axis becomes
+/// z, and a shear turns the ray into the z axis, of unit length.
 class sheared_ray {
  public:
   PT_HD explicit sheared_ray(ray const& r) {
@@ -58,7 +59,7 @@ class sheared_ray {
     shear_ = {d.x / d.z, d.y / d.z, 1 / d.z};
   }
 
-  /// Takes the triangle as `h` when it is nearer than `h.t`; true if so.
+  /// Sets `h` to the triangle if it is hit nearer than `h.t`. Returns whether it did.
   PT_HD bool intersect(bvh_triangle const& triangle, hit& h) const {
     vec3 const a = shifted(triangle.corner[0]);
     vec3 const b = shifted(triangle.corner[1]);
@@ -101,10 +102,10 @@ class sheared_ray {
   int x_, y_, z_;
 };
 
-/// 1 / x; for 0, the infinity of its sign, which IEEE 754 has for that division.
+/// 1 / x; for 0, infinity with its sign, as in IEEE 754.
 PT_HD inline real inverse_of(real x) { return x == 0 ? std::copysign(real(INFINITY), x) : 1 / x; }
 
-/// A ray in the terms of the slab test.
+/// A ray for the slab test.
 class slab_ray {
  public:
   PT_HD explicit slab_ray(ray const& r) {
@@ -132,8 +133,8 @@ class slab_ray {
   int entry_[3];  // which corner of a box is met first, per axis
 };
 
-/// The nearest hit of a ray, or with AnyHit the first one found; `primitive` tells a miss.
-/// `triangles[i]` are those of the hierarchy, within the boxes of its nodes.
+/// The nearest hit of a ray, or with AnyHit the first one found; `primitive` marks a miss.
+/// `triangles[i]` are those of the hierarchy, inside the boxes of its nodes.
 template <bool AnyHit, class Triangles>
 PT_HD hit traverse(bvh_view const& bvh, Triangles const& triangles, ray const& r) {
   std::uint32_t stack[max_bvh_depth + 1];  // each level leaves one child behind at most

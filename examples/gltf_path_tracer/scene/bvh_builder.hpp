@@ -16,11 +16,10 @@ struct bvh {
 };
 
 /// Builds a hierarchy by the surface area heuristic over 16 bins per axis (Wald 2007). The same
-/// input gives the same hierarchy. Any finite input is fine: a triangle without area is kept and
-/// never hit, and no hierarchy is deeper than max_bvh_depth.
-/// A box holds its triangles wherever they are between their place and that of `motion`, which is
-/// empty where nothing moves.
-/// Throws std::length_error for more than 2^28 triangles.
+/// input gives the same hierarchy. Any finite input is valid: a triangle without area is kept and
+/// never hit, and no hierarchy is deeper than max_bvh_depth. A box holds its triangles at all times
+/// between their own place and that of `motion`, which is empty if nothing moves. Throws
+/// std::length_error for more than 2^28 triangles.
 bvh build_bvh(std::vector<triangle> const& triangles,
               std::vector<triangle_motion> const& motion = {});
 

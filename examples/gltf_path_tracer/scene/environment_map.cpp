@@ -14,10 +14,10 @@
 namespace path_tracer {
 namespace {
 
-/// As many as a random number of 24 bits picks each of.
+/// The most texels: a random number of 24 bits can pick each of them.
 constexpr std::int64_t most_texels = std::int64_t{1} << 24;
 
-/// A file that remembers when more was asked of it than it has: stb does not.
+/// A file that records reads beyond its end, which stb ignores.
 struct byte_stream {
   std::vector<unsigned char> const& bytes;
   std::size_t at;

@@ -17,15 +17,15 @@ struct environment_map {
   std::vector<vec3> texels;
 };
 
-/// Which texel no light can come from: one that is negative, not a number or, alone or times
-/// `intensity`, beyond 1e30. Empty where all are well.
+/// Names a texel with an invalid value: negative, NaN or, alone or times `intensity`, beyond 1e30.
+/// Empty if all are valid.
 std::string fault_of(environment_map const& map, real intensity);
 
 /// Reads a picture in Radiance's .hdr format, of 2^24 pixels at most. Throws std::runtime_error,
 /// for values that are negative or, times `intensity`, not in the range of a float as well.
 environment_map load_environment(std::string const& path, real intensity);
 
-/// A map as rays see it, turned about y, counter-clockwise seen from above.
+/// A map for rays, rotated about y, counter-clockwise as seen from above.
 struct environment_view {
   vec3 const* texels;
   std::uint32_t width, height;

@@ -13,9 +13,9 @@ double area(triangle const& t) {
   return 0.5 * glm::length(glm::cross(b - a, c - a));
 }
 
-/// Vose's construction (1991) of the alias table of these powers; their sum is positive. What is
-/// left of equal powers may be off the mean by rounding alone and counts as the mean: otherwise
-/// float and double would draw other lights from the same random numbers.
+/// Vose's construction (1991) of the alias table of these powers; their sum is positive. Remainders
+/// that differ from the mean only by rounding count as the mean. Otherwise float and double would
+/// pick different lights for the same random numbers.
 void build_alias_table(std::vector<light_entry>& entries, std::vector<double> power, double sum) {
   auto const count = static_cast<double>(power.size());
   double const mean = 1 - 1e-6;

@@ -13,8 +13,8 @@
 
 namespace path_tracer {
 
-/// A column of an alias table (Walker 1977): keeps its own light with probability `keep`, else
-/// gives `alias`. `probability` is that of its own light in all.
+/// A column of an alias table (Walker 1977): picks its own light with probability `keep`, else
+/// `alias`. `probability` is the total probability of its own light.
 struct light_entry {
   real keep;
   std::uint32_t alias;
@@ -44,8 +44,8 @@ struct light_view {
 class light_list {
  public:
   light_list() = default;
-  /// Picks each light in proportion to the power that it gives off. Without those that an
-  /// estimator does not sample.
+  /// Picks each light in proportion to its power, except for lights that an estimator does not
+  /// sample.
   explicit light_list(scene const& s, estimator how = estimator::mis);
   /// The scene is the one that it was made of.
   light_view view(scene const& s) const;
@@ -135,8 +135,8 @@ PT_HD inline light_sample sample_emitter(light_view const& lights, triangle cons
   return s;
 }
 
-/// The column of an alias table that two numbers in [0, 1) pick. What the first has left over
-/// refines the second, of 24 bits, which alone would pick a rare light too often.
+/// The column of an alias table that two numbers in [0, 1) pick. The unused bits of the first
+/// refine the second, whose 24 bits alone would pick a rare light too often.
 PT_HD inline std::uint32_t pick_entry(light_entry const* entries, std::uint32_t count, vec2 u) {
   real const x = u.x * static_cast<real>(count);
   auto slot = static_cast<std::uint32_t>(x);

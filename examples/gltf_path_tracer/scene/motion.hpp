@@ -10,8 +10,8 @@
 
 namespace path_tracer {
 
-/// A point on its way from `open` to `close` at a time in [0, 1); rounding does not leave the box
-/// about the two.
+/// A point between `open` and `close`, at a time in [0, 1). Despite rounding, it stays in the box
+/// of the two.
 PT_HD inline vec3 moved(vec3 open, vec3 close, real time) {
   return glm::clamp(open + time * (close - open), glm::min(open, close), glm::max(open, close));
 }
@@ -24,9 +24,9 @@ PT_HD inline triangle triangle_at(triangle t, triangle_motion const& m, real tim
   return t;
 }
 
-/// How far from a point of a triangle, along the normal, a ray can start without meeting that
-/// triangle again: the rounding of the point goes with the size of its coordinates, that of the
-/// intersection with the extent of the triangle, whatever the angle.
+/// How far from a point of a triangle, along the normal, a ray must start to miss that triangle at
+/// any angle. The rounding error of the point grows with its coordinates, that of the intersection
+/// with the extent of the triangle.
 PT_HD inline real clearance_of(triangle const& t) {
   vec3 const e1 = t.position[1] - t.position[0], e2 = t.position[2] - t.position[0];
   vec3 const reach =
@@ -35,7 +35,7 @@ PT_HD inline real clearance_of(triangle const& t) {
   return epsilon * (2 * max_component(reach) + 16 * max_component(extent));
 }
 
-/// Triangle number `primitive` at a time, where `Set` has motion blur; else as it lies in memory.
+/// Triangle number `primitive` at a time if `Set` has motion blur; else as it lies in memory.
 template <class Set>
 using loaded_triangle =
     std::conditional_t<Set::template has<effects::motion_blur>, triangle, triangle const&>;
@@ -48,8 +48,8 @@ PT_HD loaded_triangle<Set> load_triangle(triangle const* triangles, triangle_mot
   return triangles[primitive];
 }
 
-/// The area of a triangle as it lies in memory, over that at the moment of `t`: a light is picked
-/// by the former, and the density of its points goes by the latter.
+/// The area of a triangle in memory, divided by its area at the moment of `t`. The former gives the
+/// probability of picking a light, the latter the density of its points.
 template <class Set>
 PT_HD real area_ratio(triangle const* triangles, triangle_motion const* motion,
                       std::uint32_t primitive, triangle const& t) {

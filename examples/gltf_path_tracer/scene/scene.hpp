@@ -10,10 +10,10 @@
 
 namespace path_tracer {
 
-/// The id of a finished path: outside the table, so the library leaves the request alone.
+/// The id of a finished path. It is outside the table, and the library skips the request.
 inline constexpr std::uint8_t finished = 255;
 
-/// A surface in the terms of glTF 2.0; colours are linear.
+/// A surface by the parameters of glTF 2.0; colours are linear.
 struct basic_material {
   shader kind = shader_of<effects::matte>;
   vec3 base_color{real(0.8)};

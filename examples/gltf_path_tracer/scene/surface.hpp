@@ -55,8 +55,8 @@ struct surface {
   }
 };
 
-/// An orthonormal frame about `n` whose tangent is as near to `hint` as can be; any, for a hint of
-/// no use (then by Duff et al., JCGT 2017).
+/// An orthonormal frame about `n` whose tangent is as near to `hint` as possible. If the hint is
+/// degenerate, any frame (by Duff et al., JCGT 2017).
 PT_HD inline void set_frame(surface& s, vec3 n, vec3 hint) {
   s.normal = n;
   vec3 const t = hint - n * glm::dot(n, hint);
@@ -73,14 +73,14 @@ PT_HD inline void set_frame(surface& s, vec3 n, vec3 hint) {
   s.up = glm::cross(n, s.tangent);
 }
 
-/// Bends `n` the least that lets the viewer, in direction `wo`, see its front.
+/// Bends `n` as little as needed for the viewer, in direction `wo`, to see its front.
 PT_HD inline vec3 face_viewer(vec3 n, vec3 wo) {
   real const cos_o = glm::dot(n, wo);
   return cos_o > real(1e-3) ? n : glm::normalize(n + (real(1e-3) - cos_o) * wo);
 }
 
-/// How the position on a triangle changes with the texture coordinates u and v, up to a positive
-/// factor; nothing where they are of no use.
+/// The derivatives of the position on a triangle by the texture coordinates u and v, up to a
+/// positive factor; 0 if these are degenerate.
 struct texture_axes {
   vec3 u{0}, v{0};
 };

@@ -5,9 +5,9 @@
 
 namespace path_tracer {
 
-/// How light from surfaces and the environment is found: by sampling lights and BSDFs, weighed
-/// against each other (Veach 1997, section 9.2), or by one of them alone. Punctual lights are
-/// sampled, and what mirrors and smooth glass show is found, whatever this says.
+/// How to find light from surfaces and the environment: by sampling lights and BSDFs, weighted by
+/// multiple importance sampling (Veach 1997, section 9.2), or by one of them alone. In any case,
+/// punctual lights are sampled, and paths follow mirrors and smooth glass.
 enum class estimator : std::uint8_t { mis, bsdf, light };
 inline constexpr char const* estimator_names[] = {"mis", "bsdf", "light"};
 
@@ -29,13 +29,12 @@ inline constexpr char const* storage_name = "compact";
 inline constexpr char const* storage_name = "full";
 #endif
 
-/// What a picture may give up of its accuracy, for time: nothing, as constructed, that a larger
-/// number of samples does not bring back, but for the depth of its paths (docs/accuracy.md).
+/// The accuracy that a picture may trade for time (docs/accuracy.md). By default, more samples
+/// remove every error, except for that of the maximal depth of paths.
 struct accuracy_settings {
   estimator light = estimator::mis;
   summation sums = summation::in_double;
-  /// From this surface hit on a path survives with a probability, and its throughput makes up for
-  /// it.
+  /// From this surface hit on, Russian roulette may end a path; the throughput of survivors grows.
   std::uint32_t roulette_from = 5;
   /// Octaves that procedural textures have at most.
   std::uint32_t octaves = 16;

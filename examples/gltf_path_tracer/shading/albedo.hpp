@@ -5,8 +5,8 @@
 
 namespace path_tracer {
 
-/// Charlie's alpha; not below 0.08, where the distribution and its fitted masking would reflect
-/// more than they receive.
+/// Charlie's alpha, at least 0.08: below that, the distribution and its fitted masking reflect more
+/// than they receive.
 PT_HD inline real sheen_alpha(real roughness) {
   return glm::max(roughness * roughness, real(0.08));
 }

@@ -10,10 +10,10 @@
 namespace path_tracer {
 
 // Every bsdf_* is a small value with two members, in the frame of microfacet.hpp, wo.z > 0:
-//   bsdf_value value(vec3 wo, vec3 wi) const;     what a given direction carries
-//   bsdf_sample sample(vec3 wo, vec3 u) const;    a direction, from three numbers in [0, 1)
-// They conserve energy, and are reciprocal. Throughput counts radiance over the squared refractive
-// index, which an interface leaves alone (Veach 1997, section 5.2): no factor eta^2 for glass.
+// bsdf_value value(vec3 wo, vec3 wi) const; what a given direction carries bsdf_sample sample(vec3
+// wo, vec3 u) const; a direction, from three numbers in [0, 1) They conserve energy, and are
+// reciprocal. Throughput is radiance divided by the squared refractive index, which an interface
+// does not change (Veach 1997, section 5.2): no factor eta^2 for glass.
 
 struct bsdf_value {
   vec3 f_cos{0};  ///< f(wo, wi) |cos(theta_i)|
@@ -27,7 +27,7 @@ struct bsdf_sample {
   bool delta = false;  ///< the only direction of a mirror: no pdf, value() does not know it
 };
 
-/// The sample that `b` makes of a direction: its weight counts all lobes that reach it.
+/// The sample of `b` for a direction. Its weight includes all lobes that reach that direction.
 template <class Bsdf>
 PT_HD bsdf_sample sample_towards(Bsdf const& b, vec3 wo, vec3 wi) {
   bsdf_value const v = b.value(wo, wi);
@@ -121,10 +121,10 @@ inline constexpr bool has_roughness_from = false;
 template <class Lobe>
 inline constexpr bool has_roughness_from<Lobe, std::void_t<decltype(&Lobe::roughness_from)>> = true;
 
-/// A specular lobe, and below it a diffuse base that gets what the lobe does not reflect. Where
-/// glTF suggests 1 - F(wo.m) for that share, which adds energy at grazing angles, this takes the
-/// reciprocal form of Kelemen and Szirmay-Kalos (2001), (1 - E(wo)) (1 - E(wi)) / (1 - mean of E),
-/// where E is the share that the dielectric lobe reflects.
+/// A specular lobe, and below it a diffuse base that gets the light that the lobe does not reflect.
+/// glTF suggests 1 - F(wo.m) for that share, which adds energy at grazing angles. This is the
+/// reciprocal form of Kelemen and Szirmay-Kalos (2001), (1 - E(wo)) (1 - E(wi)) / (1 - mean of E).
+/// E is the share that the dielectric lobe reflects.
 template <class Lobe>
 class basic_plastic {
  public:

@@ -56,8 +56,8 @@ struct bsdf_rough_glass {
   }
 };
 
-/// Two materials side by side: `share` of A, the rest B. glTF's transmission below 1 mixes glass
-/// with the opaque material so.
+/// Two materials side by side: `share` of A, the rest B. This mixes glass with the opaque material
+/// for a transmission below 1 in glTF.
 template <class A, class B>
 struct bsdf_mix {
   A a;

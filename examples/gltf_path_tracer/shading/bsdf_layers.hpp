@@ -5,8 +5,8 @@
 
 namespace path_tracer {
 
-/// A lobe on top of a material, which gets what the lobe leaves of the light: the share
-/// min(1 - E(wo), 1 - E(wi)), as KHR_materials_sheen has it, for E the albedo of the lobe.
+/// A lobe on top of a material. The material gets the light that the lobe leaves: the share min(1 -
+/// E(wo), 1 - E(wi)), as in KHR_materials_sheen. E is the albedo of the lobe.
 template <class Lobe, class Base>
 struct bsdf_layered {
   Lobe lobe;

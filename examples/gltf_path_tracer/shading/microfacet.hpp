@@ -37,11 +37,10 @@ PT_HD inline real dielectric_f0(real ior) {
   return r * r;
 }
 
-/// What an interface reflects of unpolarised light, exactly (Fresnel); `eta` is the refractive
-/// index of the far side over that of the near side. `cos_t` becomes the cosine on the far side, 0
-/// at total reflection.
-/// The differences in the usual form cancel for indices that are nearly alike and at grazing
-/// angles; here they are multiplied out, down to eta - 1, which float has exactly.
+/// The exact reflectance of an interface for unpolarised light (Fresnel). `eta` is the refractive
+/// index of the far side over that of the near side. Sets `cos_t` to the cosine on the far side, 0
+/// at total reflection. The differences in the usual form cancel for similar indices and at grazing
+/// angles. Here they are multiplied out, down to eta - 1, which is exact in float.
 PT_HD inline real fresnel_dielectric(real cos_i, real eta, real& cos_t) {
   real const step = (eta - 1) * (eta + 1), cos2 = cos_i * cos_i;
   real const bent2 = step + cos2;  // (eta cos_t)^2
@@ -55,7 +54,7 @@ PT_HD inline real fresnel_dielectric(real cos_i, real eta, real& cos_t) {
   return real(0.5) * (s * s + p * p);
 }
 
-/// Below this a microfacet lobe is a mirror at the resolution of float directions.
+/// Below this, a microfacet lobe is a mirror, at the resolution of directions in float.
 inline constexpr real min_alpha = real(2e-3);
 
 PT_HD inline real alpha_of(real roughness) { return glm::max(roughness * roughness, min_alpha); }
@@ -96,8 +95,8 @@ struct charlie {
   PT_HD real lambda(real cos_w) const {
     return cos_w < real(0.5) ? std::exp(fit(cos_w)) : std::exp(2 * fit(real(0.5)) - fit(1 - cos_w));
   }
-  /// The reflected share f cos(theta_i), for a white lobe. The fit of the masking holds to a cosine
-  /// of 1e-4; below that it would give back more light than there is.
+  /// The reflected share f cos(theta_i), for a white lobe. The fit of the masking is valid down to
+  /// a cosine of 1e-4; below, it would reflect more light than arrives.
   PT_HD real reflect(vec3 wo, vec3 wi) const {
     real const cos_m = glm::normalize(wo + wi).z;
     real const o = glm::max(wo.z, real(1e-4)), i = glm::max(wi.z, real(1e-4));

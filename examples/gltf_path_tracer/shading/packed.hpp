@@ -14,8 +14,8 @@
 
 namespace path_tracer {
 
-// Smaller records of what paths carry from stage to stage, for a renderer that is built to store
-// them (PATH_TRACER_COMPACT, see path.hpp): they read and are assigned like a vec3.
+// Smaller records for the state of paths between stages, if the renderer is built with
+// PATH_TRACER_COMPACT (see path.hpp). They are read and assigned like a vec3.
 
 /// A unit vector in 32 bits: octahedral coordinates of 16 bits each (Cigolle et al., JCGT 2014).
 /// Off by at most 1e-4 radians. What has no direction comes back as NaN.
@@ -59,9 +59,9 @@ class packed_direction {
   std::uint32_t bits_;
 };
 
-/// A colour in three numbers of 16 bits (binary16 of IEEE 754): eleven significant bits, nothing
-/// below 6e-8. What is finite and beyond 65504, either way, becomes that. Halfway between two, a
-/// GPU rounds to the even one, and a CPU away from 0.
+/// A colour in three numbers of 16 bits (binary16 of IEEE 754): eleven significant bits, and 0
+/// below 6e-8. Finite values beyond +-65504 become +-65504. Halfway between two numbers, a GPU
+/// rounds to the even one, and a CPU away from 0.
 class alignas(8) packed_color {
  public:
   packed_color() = default;

@@ -10,7 +10,7 @@
 
 namespace path_tracer {
 
-// What paths carry from stage to stage, as it lies in memory.
+// The state of paths between stages, in memory.
 #ifdef PATH_TRACER_COMPACT
 using stored_direction = packed_direction;
 using stored_color = packed_color;
@@ -52,7 +52,8 @@ struct basic_batch {
   }
 };
 
-/// What an effect makes each path remember: an array where a set has the effect and it needs one.
+/// The state of each path that an effect adds: an array, if the set has the effect and it needs
+/// one.
 template <class Effect, class Set,
           bool Exists = Set::template has<Effect>&& detail::has_path_state<Effect>>
 struct path_array {
@@ -77,7 +78,7 @@ struct batch_view : basic_batch, path_arrays<Set, all_effects> {
   }
 };
 
-/// What each pair of random numbers is for. A bounce has four; the camera has one before them all.
+/// The use of each pair of random numbers. A bounce has four; the camera has one before them all.
 enum class draw : std::uint32_t { light, light_point, direction, lobe_and_roulette };
 
 PT_HD inline std::uint32_t pair_of(draw d, std::uint32_t bounce) {

@@ -14,8 +14,8 @@ PT_HD inline std::uint64_t mix_bits(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// The random numbers of one sample of one pixel: a function of (seed, pixel, sample, index) and of
-/// nothing else, so that a path draws the same numbers whatever runs before or beside it.
+/// The random numbers of one sample of one pixel: a function of (seed, pixel, sample, index) alone.
+/// A path draws the same numbers whatever runs before or beside it.
 class random_stream {
  public:
   PT_HD random_stream(std::uint64_t seed, std::uint32_t pixel, std::uint32_t sample)

@@ -9,7 +9,7 @@
 
 namespace path_tracer {
 
-/// What a shader knows of a hit when it makes its BSDF. `Set`: the effects that may occur.
+/// What a shader knows about a hit when it makes its BSDF. `Set`: the effects that may occur.
 template <class Set>
 struct shading_point {
   scene_view const& scene;
@@ -65,7 +65,7 @@ struct shading_point {
   }
 };
 
-/// The light from a hit emitter, weighed against what a light sample at the last surface found.
+/// The light from a hit emitter, weighted against the light sample at the last surface.
 PT_HD inline void add_emission(basic_batch const& batch, scene_view const& scene, std::uint32_t i,
                                surface const& s, real area_ratio) {
   material const& m = scene.materials[s.material];
@@ -92,7 +92,7 @@ PT_HD light_draws draws_of_light(basic_batch const& batch, std::uint32_t i) {
   return u;
 }
 
-/// What arrives of the light of a sample, where nothing but the medium is between.
+/// The light of a sample that arrives if only the medium is between.
 template <class Set>
 PT_HD vec3 arriving(scene_view const& scene, light_sample const& l) {
   if constexpr (Set::template has<effects::medium>) {

@@ -11,9 +11,9 @@ namespace path_tracer {
 
 using deferred_shade::request_index;
 
-/// Half the width and height of the view at distance 1 (or of an orthographic view): a file states
-/// the vertical field, and the width follows from the shape of the picture, whatever aspect ratio
-/// the file names.
+/// Half the width and height of the view at distance 1 (or of an orthographic view). A file gives
+/// the vertical field of view. The width follows from the shape of the picture, not from the aspect
+/// ratio of the file.
 PT_HD inline vec2 half_extent(camera const& view, real aspect) {
   real const y = view.ortho_height > 0 ? view.ortho_height : view.tan_half_yfov;
   return {y * aspect, y};
@@ -136,9 +136,9 @@ PT_HD inline bool is_finite(vec3 c) {
   return total - total == 0;
 }
 
-/// Adds the samples that a batch has of a pixel to its sum, in the order of the samples, so that
-/// the picture does not depend on the size of a batch. Leaves out samples that are not finite. Runs
-/// over the pixels of the batch, at most one per path.
+/// Adds a batch's samples of a pixel to its sum, in the order of the samples: the picture does not
+/// depend on the size of a batch. Leaves out samples that are not finite. Runs over the pixels of
+/// the batch, at most one per path.
 template <class Sum>
 struct accumulate_samples {
   basic_batch batch;

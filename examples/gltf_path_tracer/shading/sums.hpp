@@ -22,7 +22,7 @@ struct pixel_sum<summation::in_float> {
   PT_HD void add(vec3 v) { total += rgb(v); }
 };
 
-/// Keeps what rounding takes away, and gives it back with the next sample (Kahan 1965).
+/// Keeps the rounding error, and adds it to the next sample (Kahan 1965).
 template <>
 struct pixel_sum<summation::compensated> {
   rgb total{0}, lost{0};

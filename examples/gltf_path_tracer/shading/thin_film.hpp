@@ -5,8 +5,8 @@
 
 namespace path_tracer {
 
-/// What a surface with a thin film on it reflects, over the cosine of the angle: `samples` values
-/// at equal distances from 0 to 1.
+/// The reflectance of a surface with a thin film on it, by the cosine of the angle: `samples`
+/// values at equal distances from 0 to 1.
 struct film_reflectance {
   static constexpr int samples = 33;
   vec3 values[samples];
@@ -18,9 +18,9 @@ struct film_reflectance {
   }
 };
 
-/// The share of unpolarised light of a wavelength that comes back from a film of the refractive
-/// index `film` and a thickness, both lengths in nanometres, between air and a base of the real
-/// index `base`: Airy's sum over all reflections inside the film.
+/// The reflectance of a thin film between air and a base, for unpolarised light of one wavelength:
+/// Airy's sum over all reflections inside the film. `film` and `base` are real refractive indices;
+/// wavelength and thickness are in nanometres.
 double film_reflectance_at(double cos_theta, double wavelength, double film, double thickness,
                            double base);
 

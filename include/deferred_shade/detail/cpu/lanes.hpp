@@ -11,7 +11,7 @@
 #include <deferred_shade/detail/bits.hpp>
 #include <deferred_shade/types.hpp>
 
-// Records laid out word by word, so that a vector holds the same member of neighbouring records.
+// Records laid out word by word: a vector holds the same member of neighbouring records.
 
 namespace deferred_shade::detail {
 
