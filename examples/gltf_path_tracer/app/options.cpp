@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/options.hpp"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <deferred_shade/version.hpp>
 
+#include "app/validators.hpp"
 #include "effects/scene_effects.hpp"
 #include "io/image.hpp"
 
@@ -12,6 +12,8 @@ namespace path_tracer {
 namespace {
 
 constexpr std::uint32_t largest_side = 16384, most_samples = 1u << 20, deepest = 1024;
+constexpr std::uint32_t most_repetitions = 1000;
+constexpr double most_stops = 20;
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 26;
 
 template <class Names>
@@ -19,57 +21,10 @@ std::vector<std::string> strings(Names const& names) {
   return {names.begin(), names.end()};
 }
 
-std::string join(std::vector<std::string> const& names) { return CLI::detail::join(names, ", "); }
-
 /// The preferred name if this build has it, else its first.
 std::string default_name(std::vector<std::string_view> const& names, std::string const& preferred) {
   bool const has = std::find(names.begin(), names.end(), preferred) != names.end();
   return has || names.empty() ? preferred : std::string(names.front());
-}
-
-CLI::Validator one_of(std::vector<std::string> const& names) {
-  auto const check = [names](std::string& value) -> std::string {
-    if (std::find(names.begin(), names.end(), value) != names.end()) return {};
-    return "there is no \"" + value + "\", only " + join(names);
-  };
-  return CLI::Validator(check, "");
-}
-
-CLI::Validator effect_list_text() {
-  auto const check = [](std::string& value) -> std::string {
-    if (value == "auto" || value == "all") return {};
-    try {
-      effects_named(value);
-      return {};
-    } catch (std::invalid_argument const& e) {
-      return e.what();
-    }
-  };
-  return CLI::Validator(check, "");
-}
-
-CLI::Validator picture_path() {
-  auto const check = [](std::string& value) -> std::string {
-    if (has_image_ending(value)) return {};
-    return "the name of a picture ends in " + join(strings(image_endings())) + ", \"" + value +
-           "\" does not";
-  };
-  return CLI::Validator(check, "");
-}
-
-/// A whole number; CLI11's own conversion takes what is too large for the type without a word.
-CLI::Validator whole_number(std::uint64_t low, std::uint64_t high) {
-  auto const check = [low, high](std::string& value) -> std::string {
-    bool const digits =
-        !value.empty() && value.find_first_not_of("0123456789") == std::string::npos;
-    std::string const highest = std::to_string(high);
-    value.erase(0, std::min(value.find_first_not_of('0'), value.size() - digits));
-    bool const fits = digits && (value.size() < highest.size() ||
-                                 (value.size() == highest.size() && value <= highest));
-    if (fits && std::stoull(value) >= low) return {};
-    return "\"" + value + "\" is not a whole number from " + std::to_string(low) + " to " + highest;
-  };
-  return CLI::Validator(check, "");
 }
 
 std::string version() {
@@ -89,13 +44,14 @@ std::string help(CLI::App const& app) {
 void declare(CLI::App& app, options& o) {
   render_settings& s = o.settings;
   std::vector<std::string> const backend_names = strings(backends());
-  std::vector<std::string> schedule_names = strings(schedules());
-  std::string const schedule_list = join(schedule_names);
-  schedule_names.push_back("all");
+  std::vector<std::string> const schedule_names = strings(schedules());
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   auto const text = [&](char const* name, std::string& value, std::string const& help) {
     std::string const otherwise = value.empty() ? "" : " [" + value + "]";
     return app.add_option(name, value, help + otherwise);
+  };
+  auto const picture = [&](char const* name, std::string& value, std::string const& help) {
+    text(name, value, help)->check(picture_path())->type_name("FILE");
   };
   auto const number = [&](char const* name, auto& value, std::uint64_t low, std::uint64_t high,
                           std::string const& help) {
@@ -122,14 +78,17 @@ void declare(CLI::App& app, options& o) {
   text("scene", o.scene, "glTF 2.0 scene, .gltf or .glb")->required()->type_name("FILE");
 
   app.option_defaults()->group("Picture");
-  text("-o,--output", o.output, "Picture to write: " + join(strings(image_endings())))
-      ->check(picture_path())
-      ->type_name("FILE");
+  picture("-o,--output", o.output, "Picture to write: " + join(strings(image_endings())));
   number("--width", s.width, 1, largest_side, "Pixels across");
   number("--height", s.height, 1, largest_side, "Pixels down");
   number("--spp", s.samples, 1, most_samples, "Samples per pixel");
   number("--max-depth", s.max_depth, 1, deepest, "Surface hits of a path at most");
   number("--seed", s.seed, 0, UINT64_MAX, "Seed of the random numbers");
+  app.add_option("--exposure", o.exposure,
+                 "Brightness of a PNG in stops: 1 doubles it. Other formats keep\n"
+                 "the radiance as it is [0]")
+      ->check(decimal_number(-most_stops, most_stops))
+      ->type_name("STOPS");
 
   app.option_defaults()->group("Accuracy");
   accuracy_settings& a = s.accuracy;
@@ -145,11 +104,17 @@ void declare(CLI::App& app, options& o) {
       ->check(one_of(backend_names))
       ->type_name("NAME");
   number("--threads", s.threads, 0, 1024, "Threads of the CPU; 0: as many as it has");
-  text("--schedule", s.schedule,
-       "Order of shading: " + schedule_list +
-           ";\nor all: render with each, compare the pictures, print a table")
-      ->check(one_of(schedule_names))
-      ->type_name("NAME");
+  auto const take_schedules = [&o, schedule_names](std::string const& given) {
+    o.schedules = given == "all" ? schedule_names : split(given);
+  };
+  app.add_option_function<std::string>(
+         "--schedule", take_schedules,
+         "Order of shading: " + join(schedule_names) +
+             ".\nSeveral, separated by commas, or all: render with each,\n"
+             "compare the pictures, print a table [" +
+             o.schedules.front() + "]")
+      ->check(list_of(schedule_names))
+      ->type_name("LIST");
 
   app.option_defaults()->group("Effects");
   text("--effects", o.effects,
@@ -158,20 +123,24 @@ void declare(CLI::App& app, options& o) {
            join_names(effect_bits().set()))
       ->check(effect_list_text())
       ->type_name("LIST");
-  app.add_flag("--explain", o.explain, "Print what calls for which effect and what was left out");
+  app.add_flag("--explain", o.explain,
+               "Print what calls for which effect and which code is chosen;\nrender nothing");
 
   app.option_defaults()->group("Measurement");
+  number("--repeat", o.repeat, 1, most_repetitions,
+         "Render so many times with each schedule; the table has medians\nand spreads");
   text("--report", o.report, "Write settings and measurements as JSON")->type_name("FILE");
-  text("--heatmap", o.heatmap_folder,
-       "Write a picture for each bounce: how well the groups of 32\n"
-       "requests use their SIMD lanes")
-      ->type_name("DIR");
+  picture("--heatmap-sheet", o.heatmap_sheet,
+          "Write one picture with a heat map for each schedule and bounce:\n"
+          "how many lanes work in each group of 32 requests");
+  picture("--shader-ids", o.shader_ids,
+          "Write a picture of the shader that each pixel runs first, with\nthe names");
   text("--trace", o.trace,
        "Write what was done and when, for https://ui.perfetto.dev or\n"
        "chrome://tracing: trace events as JSON")
       ->type_name("FILE");
 
-  app.add_flag("-q,--quiet", o.quiet, "Print errors only")->group("Information");
+  app.add_flag("-q,--quiet", o.quiet, "Print errors and the table only")->group("Information");
   app.set_help_flag("-h,--help", "Print this and exit")->group("Information");
   app.set_version_flag("--version", version(), "Print the version and exit")->group("Information");
 }
@@ -181,7 +150,7 @@ void declare(CLI::App& app, options& o) {
 std::optional<options> parse_options(int argc, char const* const* argv, std::ostream& out) {
   options o;
   o.settings.backend = default_name(backends(), o.settings.backend);
-  o.settings.schedule = default_name(schedules(), o.settings.schedule);
+  o.schedules = {default_name(schedules(), o.settings.schedule)};
   CLI::App app("Renders a glTF scene by wavefront path tracing, shading through deferred_shade.",
                "gltf_path_tracer");
   app.get_formatter()->column_width(24);
@@ -205,6 +174,10 @@ std::optional<options> parse_options(int argc, char const* const* argv, std::ost
   if (std::uint64_t{o.settings.width} * o.settings.height > most_pixels)
     throw usage_error("--width times --height: the picture has more than " +
                       std::to_string(most_pixels) + " pixels");
+  for (auto const& [a, b] :
+       {std::pair{&o.output, &o.heatmap_sheet}, std::pair{&o.output, &o.shader_ids},
+        std::pair{&o.heatmap_sheet, &o.shader_ids}})
+    if (!a->empty() && *a == *b) throw usage_error("two pictures have the name " + *a);
   if (o.scene.empty()) throw usage_error("scene: the name of the file is empty");
   return o;
 }
