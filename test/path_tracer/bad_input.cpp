@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Command lines that are wrong (exit code 2) and files that cannot be written (exit code 1).
 #include <algorithm>
+#include <sstream>
 
 #include "app/render.hpp"
 #include "catch.hpp"
@@ -114,6 +115,8 @@ TEST_CASE("help and version go to standard output") {
         "--heatmap-sheet", "--shader-ids", "--repeat",  "--exposure", "--explain",
         "--trace",         "--quiet",      "--version", "[512]",      "Example"})
     CHECK(help.out.find(word) != std::string::npos);
+  std::istringstream lines(help.out);
+  for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 80);
   outcome const version = run_path_tracer({"--version"});
   CHECK(version.exit_code == 0);
   CHECK(version.out.rfind("gltf_path_tracer ", 0) == 0);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <deferred_shade/version.hpp>
+#include <sstream>
 
 #include "app/validators.hpp"
 #include "effects/scene_effects.hpp"
@@ -14,6 +15,7 @@ namespace {
 constexpr std::uint32_t largest_side = 16384, most_samples = 1u << 20, deepest = 1024;
 constexpr std::uint32_t most_repetitions = 1000;
 constexpr double most_stops = 20;
+constexpr std::size_t help_column = 24;
 constexpr std::uint64_t most_pixels = std::uint64_t{1} << 26;
 
 template <class Names>
@@ -33,12 +35,29 @@ std::string version() {
          std::to_string(DEFERRED_SHADE_VERSION_PATCH);
 }
 
+/// Breaks lines of more than 80 characters at spaces; what follows is indented.
+std::string folded(std::string const& text, std::size_t indent) {
+  constexpr std::size_t most = 80;
+  std::istringstream lines(text);
+  std::string result;
+  for (std::string line; std::getline(lines, line);) {
+    while (line.size() > most) {
+      std::size_t const at = line.rfind(' ', most);
+      if (at == std::string::npos || at <= indent) break;  // a word that is longer
+      result += line.substr(0, at) + "\n";
+      line = std::string(indent, ' ') + line.substr(at + 1);
+    }
+    result += line + "\n";
+  }
+  return result;
+}
+
 /// The help text without the empty lines that CLI11 puts before each group but the first.
 std::string help(CLI::App const& app) {
   std::string text = app.help();
   for (auto at = text.find("\n\n\n"); at != std::string::npos; at = text.find("\n\n\n"))
     text.erase(at, 1);
-  return text + "\n";
+  return folded(text, help_column);
 }
 
 void declare(CLI::App& app, options& o) {
@@ -85,7 +104,7 @@ void declare(CLI::App& app, options& o) {
   number("--max-depth", s.max_depth, 1, deepest, "Surface hits of a path at most");
   number("--seed", s.seed, 0, UINT64_MAX, "Seed of the random numbers");
   app.add_option("--exposure", o.exposure,
-                 "Brightness of a PNG in stops: 1 doubles it. Other formats keep\n"
+                 "Brightness of a PNG in stops: 1 doubles it. Other formats keep "
                  "the radiance as it is [0]")
       ->check(decimal_number(-most_stops, most_stops))
       ->type_name("STOPS");
@@ -93,7 +112,7 @@ void declare(CLI::App& app, options& o) {
   app.option_defaults()->group("Accuracy");
   accuracy_settings& a = s.accuracy;
   choice("--estimator", a.light, estimator_names,
-         "How light is found: by sampling both lights and BSDFs, or one\nof them");
+         "How light is found: by sampling both lights and BSDFs, or one of them");
   number("--roulette", a.roulette_from, 1, deepest,
          "Surface hit from which on paths may end at random");
   choice("--sums", a.sums, summation_names, "How samples are added up");
@@ -110,7 +129,7 @@ void declare(CLI::App& app, options& o) {
   app.add_option_function<std::string>(
          "--schedule", take_schedules,
          "Order of shading: " + join(schedule_names) +
-             ".\nSeveral, separated by commas, or all: render with each,\n"
+             ". Several, separated by commas, or all: render with each, "
              "compare the pictures, print a table [" +
              o.schedules.front() + "]")
       ->check(list_of(schedule_names))
@@ -118,25 +137,25 @@ void declare(CLI::App& app, options& o) {
 
   app.option_defaults()->group("Effects");
   text("--effects", o.effects,
-       "What to simulate. auto: what the scene calls for; all: the same,\n"
+       "What to simulate. auto: what the scene calls for; all: the same, "
        "by code for all effects; or those of a list: " +
            join_names(effect_bits().set()))
       ->check(effect_list_text())
       ->type_name("LIST");
   app.add_flag("--explain", o.explain,
-               "Print what calls for which effect and which code is chosen;\nrender nothing");
+               "Print what calls for which effect and which code is chosen; render nothing");
 
   app.option_defaults()->group("Measurement");
   number("--repeat", o.repeat, 1, most_repetitions,
-         "Render so many times with each schedule; the table has medians\nand spreads");
+         "Render so many times with each schedule; the table has medians and spreads");
   text("--report", o.report, "Write settings and measurements as JSON")->type_name("FILE");
   picture("--heatmap-sheet", o.heatmap_sheet,
-          "Write one picture with a heat map for each schedule and bounce:\n"
+          "Write one picture with a heat map for each schedule and bounce: "
           "how many lanes work in each group of 32 requests");
   picture("--shader-ids", o.shader_ids,
-          "Write a picture of the shader that each pixel runs first, with\nthe names");
+          "Write a picture of the shader that each pixel runs first, with the names");
   text("--trace", o.trace,
-       "Write what was done and when, for https://ui.perfetto.dev or\n"
+       "Write what was done and when, for https://ui.perfetto.dev or "
        "chrome://tracing: trace events as JSON")
       ->type_name("FILE");
 
@@ -153,12 +172,12 @@ std::optional<options> parse_options(int argc, char const* const* argv, std::ost
   o.schedules = {default_name(schedules(), o.settings.schedule)};
   CLI::App app("Renders a glTF scene by wavefront path tracing, shading through deferred_shade.",
                "gltf_path_tracer");
-  app.get_formatter()->column_width(24);
+  app.get_formatter()->column_width(help_column);
   app.footer(
       "Example:\n"
-      "  gltf_path_tracer gallery.gltf -o gallery.png --spp 64 --schedule all --report "
-      "gallery.json\n\n"
-      "Exit code: 0 success, 1 the scene or a file is at fault, 2 the command line is wrong.");
+      "  gltf_path_tracer gallery.gltf -o gallery.png --spp 64 --schedule all\n\n"
+      "Exit code: 0 success, 1 the scene or a file is at fault, 2 the command line is\n"
+      "wrong.");
   declare(app, o);
   try {
     app.parse(argc, argv);
