@@ -36,7 +36,8 @@ def scene_path(scene):
 
 def run(program, scene, settings, *options):
     words = [word for key, value in settings.items() for word in (f"--{key}", str(value))]
-    subprocess.run([program, str(scene_path(scene)), "--quiet", *words, *options], check=True)
+    subprocess.run([program, str(scene_path(scene)), "--quiet", *words, *options], check=True,
+                   stdout=subprocess.DEVNULL)  # the table
 
 
 def report_of(program, scene, settings):

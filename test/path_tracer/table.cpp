@@ -77,6 +77,8 @@ TEST_CASE("several renderings have medians and spreads", "[table]") {
   CHECK(text.rfind("Medians of 3 renderings; ", 0) == 0);
   CHECK(row_of("local", text) ==
         "local       10.0    50.0   60%   2.00x*   2.000   60%   0.50x   98  56");
+  CHECK(in_short(runs).find("\nNoise: pictures by one schedule differ by up to 60 % in time.\n") !=
+        std::string::npos);
   // Of an even number, the median lies in the middle.
   runs.pop_back();
   runs.pop_back();

@@ -93,6 +93,15 @@ measurement const& best_other(std::vector<measurement> const& list, timing measu
   return *best;
 }
 
+/// How far apart renderings are that should take the same time; nothing if there is one of each.
+std::string noise_of(std::vector<measurement> const& list) {
+  double most = 0;
+  for (measurement const& m : list) most = std::max(most, m.picture_s.spread);
+  if (list.front().renderings < 2) return "";
+  return formatted("Noise: pictures by one schedule differ by up to %.0f %% in time.\n",
+                   100 * most);
+}
+
 }  // namespace
 
 std::vector<measurement> measurements_of(std::vector<run> const& runs) {
@@ -140,12 +149,12 @@ std::string table(std::vector<run> const& runs) {
   std::size_t const columns =
       std::min(bounces, (line_width - std::min(width, line_width)) / digits);
 
-  std::string const first = filled("", name) + "   group     shade";
-  std::string const second = filled("schedule", name) + "      ms" + shading.heading();
-  std::string result = explanation(list) + filled(first, second.size()) + "   picture";
-  if (columns > 0) result = filled(result, result.size() + width - second.size() - 10);
-  if (columns > 0) result += columns > 2 ? " % of lanes at hit" : " % lanes";
-  result += "\n" + second + picture.heading();
+  std::string const head = filled("schedule", name) + "      ms" + shading.heading();
+  std::string above = filled(filled("", name) + "   group     shade", head.size()) + "   picture";
+  std::string const title = " % of lanes, by bounce";
+  if (columns > 0)
+    above = filled(above, width) + (width + title.size() <= line_width ? title : " % lanes");
+  std::string result = explanation(list) + above + "\n" + head + picture.heading();
   for (std::size_t k = 0; k < columns; ++k) result += formatted("%4zu", k + 1);
   result += "\n";
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -174,7 +183,7 @@ std::string in_short(std::vector<run> const& runs) {
          "Whole picture: " + gain(&measurement::picture_s) + " (shading is " +
          percent(1e-3 * base.shading_ms.median, base.picture_s.median) + " of it).\n" +
          "Grouping: " + percent(best.group_ms.median, best.shading_ms.median) +
-         " of the shading by " + best.schedule + ".\n";
+         " of the shading by " + best.schedule + ".\n" + noise_of(list);
 }
 
 }  // namespace path_tracer

@@ -31,7 +31,8 @@ std::vector<measurement> measurements_of(std::vector<run> const& runs);
 std::string table(std::vector<run> const& runs);
 
 /// What it comes to, in a sentence each: the gain in shading, the gain in the whole picture, and
-/// what grouping takes. Empty for a single schedule.
+/// what grouping takes, and the noise if a schedule has several renderings. Empty for a single
+/// schedule.
 std::string in_short(std::vector<run> const& runs);
 
 }  // namespace path_tracer
