@@ -32,7 +32,7 @@ def render(arguments, program, scene, effects):
                    "--effects", effects, "--schedule", arguments.schedule, "--backend", arguments.backend,
                    "--width", str(arguments.width), "--height", str(arguments.height),
                    "--spp", str(arguments.spp), "--max-depth", str(arguments.max_depth), "--report", str(report)]
-        subprocess.run(command, check=True)
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
         result = json.loads(report.read_text(encoding="utf-8"))
     return [{"code_for": result["settings"]["code_for"], "schedule": run["schedule"], "seconds": run["seconds"],
              "shade_ms": sum(b["total_ms"] for b in run["bounces"])} for run in result["schedules"]]

@@ -9,8 +9,7 @@
 `efficiency` counts, and measures no time: the heterogeneous efficiency of every schedule at the first hits, and the
 requests of each shader; no machine changes it. `times` renders every scene by every schedule, several times, in larger
 pictures on a GPU. Both are for benchmark/report.py. `pictures` writes a picture of each scene, all in one row, and for
-each a sheet of heat maps: the first hits from left to right, a row for each schedule of PICTURED, of every fourth pixel
-across and down of what `efficiency` counts.
+each the path tracer's sheet of heat maps, of what `efficiency` counts, for the schedules of PICTURED.
 """
 import argparse
 import json
@@ -29,7 +28,6 @@ COUNTED = {"width": 1280, "height": 720, "spp": 1, "max-depth": len(EFFICIENCY)}
 TIMED = {"width": 480, "height": 270, "spp": 1, "max-depth": 8}
 TIMED_ON_CUDA = {"width": 1280, "height": 720, "spp": 8, "max-depth": 8}
 SHOWN = {"width": 256, "height": 144, "spp": 256, "max-depth": 16}
-STEP = 4
 
 
 def scene_path(scene):
@@ -38,7 +36,8 @@ def scene_path(scene):
 
 def run(program, scene, settings, *options):
     words = [word for key, value in settings.items() for word in (f"--{key}", str(value))]
-    subprocess.run([program, str(scene_path(scene)), "--quiet", *words, *options], check=True)
+    subprocess.run([program, str(scene_path(scene)), "--quiet", *words, *options], check=True,
+                   stdout=subprocess.DEVNULL)  # the table
 
 
 def report_of(program, scene, settings):
@@ -60,13 +59,11 @@ def keep(report, of_run, of_bounce):
 
 
 def heat_maps(program, scene):
-    rows = []
-    for schedule in PICTURED:
-        with tempfile.TemporaryDirectory() as folder:
-            run(program, scene, COUNTED, "--schedule", schedule, "--heatmap", folder, "-o", f"{folder}/picture.pfm")
-            maps = [png.read(pathlib.Path(folder) / f"bounce_{hit + 1:02}.png") for hit in range(COUNTED["max-depth"])]
-        rows.append(png.beside([png.thinned(one, STEP) for one in maps]))
-    return png.below(rows)
+    with tempfile.TemporaryDirectory() as folder:
+        sheet = pathlib.Path(folder) / "sheet.png"
+        run(program, scene, COUNTED, "--schedule", ",".join(PICTURED), "--heatmap-sheet", str(sheet),
+            "-o", f"{folder}/picture.pfm")
+        return png.read(sheet)
 
 
 def picture(program, scene):

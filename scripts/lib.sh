@@ -84,6 +84,13 @@ check_cmake() {
   fi
 }
 
+# The name of the first GPU that NVIDIA's driver finds, or nothing.
+first_gpu() {
+  local names
+  names=$(nvidia-smi --query-gpu=name --format=csv,noheader 2>/dev/null) || return 0
+  head -n 1 <<<"$names"
+}
+
 # Everything that a build needs, and the packages given.
 prepare() {
   local pip=()

@@ -64,18 +64,7 @@ def write(path, rows):
                      chunk(b"IEND", b""))
 
 
-def thinned(rows, step):
-    """Every so many pixels across and down."""
-    return [row[::step] for row in rows[::step]]
-
-
 def beside(pictures, gap=4):
     """Pictures of one height in a row, with grey between."""
     between = [(128, 128, 128)] * gap
     return [[pixel for k, line in enumerate(lines) for pixel in between * (k > 0) + line] for lines in zip(*pictures)]
-
-
-def below(sheets, gap=4):
-    """Pictures of one width below each other, with grey between."""
-    between = [[(128, 128, 128)] * len(sheets[0][0])] * gap
-    return [line for k, rows in enumerate(sheets) for line in between * (k > 0) + rows]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Command lines that are wrong (exit code 2) and files that cannot be written (exit code 1).
 #include <algorithm>
+#include <sstream>
 
 #include "app/render.hpp"
 #include "catch.hpp"
@@ -55,6 +56,37 @@ TEST_CASE("a wrong command line is refused in one line with exit code 2") {
       {{"a.gltf", "--backend", "abacus"}, std::string(path_tracer::backends().front())},
       {{"a.gltf", "--schedule", "random"}, std::string(path_tracer::schedules().back())},
       {{"a.gltf", "--schedule", "ALL"}, "there is no \"ALL\""},
+      {{"a.gltf", "--schedule", "local,chaos,sort"}, "there is no \"chaos\", only implicit"},
+      {{"a.gltf", "--schedule", "local,"}, "there is no \"\""},
+      {{"a.gltf", "--schedule", ""}, "there is no \"\""},
+      {{"a.gltf", "--schedule", "local, window"}, "there is no \" window\""},
+      {{"a.gltf", "--schedule", "local,window,local"}, "\"local\" is named twice"},
+      {{"a.gltf", "--schedule", "local,all"}, "\"all\" is every one of them"},
+      {{"a.gltf", "--schedule", "all,local"}, "\"all\" is every one of them"},
+      {{"a.gltf", "--schedule", "all", "--schedule", "local"}, "--schedule"},
+      {{"a.gltf", "--schedule"}, "--schedule"},
+      {{"a.gltf", "--repeat", "0"}, "\"0\" is not a whole number from 1 to 1000"},
+      {{"a.gltf", "--repeat", "-1"}, "--repeat"},
+      {{"a.gltf", "--repeat", "1001"}, "from 1 to 1000"},
+      {{"a.gltf", "--repeat", "2.5"}, "--repeat"},
+      {{"a.gltf", "--repeat"}, "--repeat"},
+      {{"a.gltf", "--exposure", "bright"}, "\"bright\" is not a number from -20 to 20"},
+      {{"a.gltf", "--exposure", "20.5"}, "from -20 to 20"},
+      {{"a.gltf", "--exposure", "-21"}, "from -20 to 20"},
+      {{"a.gltf", "--exposure", "nan"}, "from -20 to 20"},
+      {{"a.gltf", "--exposure", "0x1"}, "from -20 to 20"},
+      {{"a.gltf", "--exposure", "1e"}, "from -20 to 20"},
+      {{"a.gltf", "--exposure="}, "--exposure"},
+      {{"a.gltf", "--exposure"}, "--exposure"},
+      {{"a.gltf", "--explain=maybe"}, "--explain"},
+      {{"a.gltf", "--heatmap-sheet"}, "--heatmap-sheet"},
+      {{"a.gltf", "--heatmap-sheet="}, "--heatmap-sheet"},
+      {{"a.gltf", "--heatmap-sheet", "folder/"}, "does not"},
+      {{"a.gltf", "--shader-ids"}, "--shader-ids"},
+      {{"a.gltf", "--shader-ids", "ids.jpg"}, "the name of a picture ends in .png"},
+      {{"a.gltf", "-o", "a.png", "--heatmap-sheet", "a.png"}, "two pictures have the name a.png"},
+      {{"a.gltf", "--shader-ids", "render.png"}, "two pictures have the name render.png"},
+      {{"a.gltf", "--shader-ids", "b.png", "--heatmap-sheet", "b.png"}, "two pictures"},
       {{"a.gltf", "--estimator", "both"}, "there is no \"both\", only mis, bsdf, light"},
       {{"a.gltf", "--sums", "long"}, "there is no \"long\""},
       {{"a.gltf", "--roulette", "0"}, "--roulette"},
@@ -77,10 +109,14 @@ TEST_CASE("help and version go to standard output") {
   CHECK(help.err.empty());
   for (std::string_view const name : path_tracer::schedules())
     CHECK(help.out.find(name) != std::string::npos);
-  for (char const* word : {"--output", "--width", "--height", "--spp", "--max-depth", "--seed",
-                           "--backend", "--threads", "--schedule", "--report", "--heatmap",
-                           "--trace", "--quiet", "--version", "[512]", "Example"})
+  for (char const* word :
+       {"--output",        "--width",      "--height",  "--spp",      "--max-depth",
+        "--seed",          "--backend",    "--threads", "--schedule", "--report",
+        "--heatmap-sheet", "--shader-ids", "--repeat",  "--exposure", "--explain",
+        "--trace",         "--quiet",      "--version", "[512]",      "Example"})
     CHECK(help.out.find(word) != std::string::npos);
+  std::istringstream lines(help.out);
+  for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 80);
   outcome const version = run_path_tracer({"--version"});
   CHECK(version.exit_code == 0);
   CHECK(version.out.rfind("gltf_path_tracer ", 0) == 0);
@@ -118,13 +154,19 @@ TEST_CASE("an output that cannot be written is refused in one line with exit cod
       {{"-o", good, "--report", w.folder / "folder.png"}, "folder.png: Is a directory"},
       {{"-o", good, "--trace", w.folder / "none/t.json"}, "none/t.json: No such file"},
       {{"-o", good, "--trace", w.folder / "folder.png"}, "folder.png: Is a directory"},
-      {{"-o", good, "--heatmap", w.folder / "scene.gltf"}, "scene.gltf"},
-      {{"-o", good, "--heatmap", "/proc/heat"}, "/proc/heat"},
+      {{"-o", good, "--heatmap-sheet", w.folder / "none/h.png"}, "none/h.png: No such file"},
+      {{"-o", good, "--heatmap-sheet", w.folder / "folder.png"}, "folder.png: Is a directory"},
+      {{"-o", good, "--heatmap-sheet", "/proc/heat.png"}, "/proc/heat.png"},
+      {{"-o", good, "--shader-ids", w.folder / "none/i.png"}, "none/i.png: No such file"},
+      {{"-o", good, "--shader-ids", w.folder / "folder.png"}, "folder.png: Is a directory"},
   };
   for (bad_command const& c : cases) {
     check_refused(run_path_tracer(w.arguments(c.arguments)), 1, c.words);
     CHECK(w.folder.names() == before);
   }
+  for (char const* option : {"--heatmap-sheet", "--shader-ids"})
+    check_refused(run_path_tracer(w.arguments({"-o", good, option, w.folder / "full.png"})), 1,
+                  "full.png: No space left on device");
   for (char const* option : {"--report", "--trace"})
     check_refused(run_path_tracer(w.arguments({"-o", good, option, w.folder / "full.json"})), 1,
                   "full.json: No space left on device");

@@ -6,13 +6,13 @@
 
 #include <cstdlib>
 #include <limits>
-#include <memory>
 #include <stdexcept>
+#include <utility>
 
 #include "catch.hpp"
 #include "io/output_file.hpp"
-#include "io/third_party.hpp"
 #include "path_tracer/fixture.hpp"
+#include "path_tracer/png.hpp"
 
 #if defined(PATH_TRACER_HAS_OPENEXR) && __has_include(<ImfInputFile.h>)
 #include <ImfChannelList.h>
@@ -52,18 +52,32 @@ TEST_CASE("PNG holds clamped sRGB, top row first") {
   float const infinity = std::numeric_limits<float>::infinity();
   image const picture{2, 2, {{0, 0.5f, 1}, {-3, 7, nan}, {0.001f, 0.21586f, infinity}, {1, 0, 0}}};
   write_image(folder / "a.PNG", picture);
-  std::string const bytes = read_bytes(folder / "a.PNG");
-  int width = 0, height = 0, channels = 0;
-  std::unique_ptr<stbi_uc, void (*)(void*)> const read(
-      stbi_load_from_memory(reinterpret_cast<stbi_uc const*>(bytes.data()),
-                            static_cast<int>(bytes.size()), &width, &height, &channels, 0),
-      stbi_image_free);
-  REQUIRE(read);
-  CHECK(width == 2);
-  CHECK(height == 2);
-  REQUIRE(channels == 3);
-  std::vector<int> const expected = {0, 188, 255, 0, 255, 0, 3, 128, 255, 255, 0, 0};
-  CHECK(std::vector<int>(read.get(), read.get() + 12) == expected);
+  png_picture const read = read_png(folder / "a.PNG");
+  CHECK(read.width == 2);
+  CHECK(read.height == 2);
+  REQUIRE(read.channels == 3);
+  CHECK(read.values == std::vector<int>{0, 188, 255, 0, 255, 0, 3, 128, 255, 255, 0, 0});
+}
+
+TEST_CASE("exposure makes a PNG brighter or darker by stops, and no other format") {
+  temporary_folder const folder;
+  image const picture{2, 1, {{0.25f, 0.21586f, 0}, {0.125f, 2, 0.001f}}};
+  image const brighter{2, 1, {{0.5f, 0.43172f, 0}, {0.25f, 4, 0.002f}}};
+  image const darker{2, 1, {{0.0625f, 0.053965f, 0}, {0.03125f, 0.5f, 0.00025f}}};
+  for (auto const& [stops, same] : {std::pair{1.0f, brighter}, {-2.0f, darker}, {0.0f, picture}}) {
+    CAPTURE(stops);
+    write_image(folder / "a.png", picture, stops);
+    write_image(folder / "b.png", same);
+    CHECK(read_bytes(folder / "a.png") == read_bytes(folder / "b.png"));
+  }
+  for (std::string_view const ending : image_endings()) {
+    if (ending == ".png") continue;
+    std::string const name = folder / ("a" + std::string(ending));
+    write_image(name, picture);
+    std::string const before = read_bytes(name);
+    write_image(name, picture, 3);
+    CHECK(read_bytes(name) == before);
+  }
 }
 
 TEST_CASE("PFM holds the floats as they are, bottom row first") {

@@ -1,26 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "app/heatmap.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <stdexcept>
 
-#include "app/report.hpp"
-#include "io/image.hpp"
+#include "io/canvas.hpp"
 
 namespace path_tracer {
 namespace {
-
-/// Oklab to linear Rec. 709, B. Ottosson, "A perceptual color space for image processing", 2020.
-rgb oklab_to_linear(float lightness, float a, float b) {
-  float const l = lightness + 0.3963377774f * a + 0.2158037573f * b;
-  float const m = lightness - 0.1055613458f * a - 0.0638541728f * b;
-  float const s = lightness - 0.0894841775f * a - 1.2914855480f * b;
-  rgb const cubes{l * l * l, m * m * m, s * s * s};
-  return {4.0767416621f * cubes.x - 3.3077115913f * cubes.y + 0.2309699292f * cubes.z,
-          -1.2684380046f * cubes.x + 2.6097574011f * cubes.y - 0.3413193965f * cubes.z,
-          -0.0041960863f * cubes.x - 0.7034186147f * cubes.y + 1.7076147010f * cubes.z};
-}
 
 /// Chroma and hue (degrees) at equal steps of the value; chosen to stay inside Rec. 709.
 struct control_point {
@@ -30,6 +19,33 @@ constexpr control_point points[] = {
     {0.10f, 300}, {0.16f, 328}, {0.19f, 375}, {0.15f, 415}, {0.10f, 465}};
 constexpr float darkest = 0.25f, lightest = 0.95f;
 
+constexpr rgb paper{1}, ink{0}, no_request{0.5f};  // a grey, which the scale has not
+constexpr std::uint32_t gap = 12, line = text_height + 4;
+constexpr std::uint32_t lanes = 32, scale_width = 10 * lanes;
+
+std::uint32_t divided(std::uint32_t a, std::uint32_t b) { return (a + b - 1) / b; }
+
+/// A line of text below the colour scale, in the middle of a number of lanes.
+void mark(canvas& sheet, std::uint32_t x, std::uint32_t y, std::uint32_t count) {
+  std::string const text = std::to_string(count);
+  std::uint32_t const step = scale_width / lanes;
+  std::uint32_t const middle = x + (count - 1) * step + step / 2;
+  sheet.text(middle - text_width(text) / 2, y, text, ink);
+}
+
+/// The colours of 1 to 32 lanes at work, with some of the numbers below, and that of no request.
+void draw_scale(canvas& sheet, std::uint32_t x, std::uint32_t y) {
+  std::uint32_t const step = scale_width / lanes;
+  for (std::uint32_t k = 0; k < lanes; ++k)
+    sheet.fill({x + k * step, y, step, line},
+               heat_color(static_cast<float>(k + 1) / static_cast<float>(lanes)));
+  for (std::uint32_t const count : {1u, 8u, 16u, 24u, 32u}) mark(sheet, x, y + line + 4, count);
+  std::uint32_t const right = x + scale_width + 2 * gap;
+  sheet.fill({right, y, line, line}, no_request);
+  sheet.text(right + line + gap, y + 4, "no request", ink);
+}
+constexpr std::uint32_t scale_height = 2 * line + gap;
+
 }  // namespace
 
 rgb heat_color(float efficiency) {
@@ -38,30 +54,87 @@ rgb heat_color(float efficiency) {
   int const i = std::min(static_cast<int>(t * intervals), intervals - 1);
   float const u = t * intervals - static_cast<float>(i);
   float const chroma = points[i].chroma * (1 - u) + points[i + 1].chroma * u;
-  float const hue = (points[i].hue * (1 - u) + points[i + 1].hue * u) * float(pi) / 180;
-  float const lightness = darkest + (lightest - darkest) * t;
-  rgb const color = oklab_to_linear(lightness, chroma * std::cos(hue), chroma * std::sin(hue));
-  return glm::clamp(color, rgb(0), rgb(1));
+  float const hue = points[i].hue * (1 - u) + points[i + 1].hue * u;
+  return from_oklab(darkest + (lightest - darkest) * t, chroma, hue);
 }
 
-void write_heatmaps(std::string const& folder, render_settings const& settings, run const& r,
-                    bool name_schedule) {
-  image picture{settings.width, settings.height, {}};
-  std::size_t const size = std::size_t{picture.width} * picture.height;
-  for (std::size_t i = 0; i < r.result.bounces.size(); ++i) {
-    std::vector<float> const& efficiency = r.result.bounces[i].pixel_efficiency;
-    if (efficiency.empty()) continue;
-    if (efficiency.size() != size)
-      throw std::runtime_error("the efficiency of bounce " + std::to_string(i + 1) +
-                               " has another size than the picture");
-    picture.pixels.resize(size);
-    std::transform(efficiency.begin(), efficiency.end(), picture.pixels.begin(),
-                   [](float e) { return std::isnan(e) ? rgb(0.01f) : heat_color(e); });
-    char number[32];
-    std::snprintf(number, sizeof(number), "bounce_%02zu.png", i + 1);
-    std::string const prefix = name_schedule ? r.schedule + "_" : "";
-    write_image((std::filesystem::path(folder) / (prefix + number)).string(), picture);
+heatmap_sheet::heatmap_sheet(render_settings const& settings)
+    : width_(settings.width),
+      height_(settings.height),
+      step_(divided(std::max(width_, height_), largest_side)),
+      whole_(batch_size_of(settings) >= std::uint64_t{width_} * height_) {}
+
+void heatmap_sheet::add(run const& r) {
+  row added{r.schedule, {}};
+  for (bounce const& b : r.result.bounces) {
+    if (b.pixel_efficiency.empty()) continue;  // of later batches alone
+    if (b.pixel_efficiency.size() != std::size_t{width_} * height_)
+      throw std::runtime_error("a heat map has another size than the picture");
+    if (added.bounces.size() == most_columns) continue;
+    heatmap map{{}, b.efficiency};
+    for (std::size_t y = 0; y < height_; y += step_)
+      for (std::size_t x = 0; x < width_; x += step_)
+        map.efficiency.push_back(b.pixel_efficiency[y * width_ + x]);
+    added.bounces.push_back(std::move(map));
   }
+  most_bounces_ = std::max(most_bounces_, r.result.bounces.size());
+  rows_.push_back(std::move(added));
+}
+
+image heatmap_sheet::colored(heatmap const& map) const {
+  image result{divided(width_, step_), divided(height_, step_), {}};
+  result.pixels.resize(map.efficiency.size());
+  std::transform(map.efficiency.begin(), map.efficiency.end(), result.pixels.begin(),
+                 [](float e) { return std::isnan(e) ? no_request : heat_color(e); });
+  return result;
+}
+
+std::vector<std::string> heatmap_sheet::notes() const {
+  std::vector<std::string> result = {"Lanes at work, in each group of 32 requests (one warp)"};
+  if (most_bounces_ > most_columns)
+    result.push_back("The first " + std::to_string(most_columns) + " of " +
+                     std::to_string(most_bounces_) + " bounces");
+  if (!whole_) result.push_back("Only pixels of the first batch have requests here");
+  return result;
+}
+
+image heatmap_sheet::draw() const {
+  std::uint32_t left = 0, columns = 0;
+  for (row const& r : rows_) {
+    left = std::max(left, text_width(r.schedule));
+    columns = std::max(columns, static_cast<std::uint32_t>(r.bounces.size()));
+  }
+  left += 2 * gap;
+  std::vector<std::string> const remarks = notes();
+  std::uint32_t const wide = std::max(divided(width_, step_), text_width("bounce 16")) + gap;
+  std::uint32_t const high = std::max(divided(height_, step_), line) + line + gap;
+  std::uint32_t width = gap + scale_width + 4 * gap + line + text_width("no request");
+  for (std::string const& remark : remarks) width = std::max(width, 2 * gap + text_width(remark));
+  auto const rows = static_cast<std::uint32_t>(rows_.size());
+  auto const lines = static_cast<std::uint32_t>(remarks.size());
+  std::uint32_t const foot = gap + line + gap + rows * high;
+  canvas sheet(std::max(width, left + columns * wide), foot + lines * line + scale_height + gap,
+               paper);
+
+  for (std::uint32_t k = 0; k < columns; ++k)
+    sheet.text(left + k * wide, gap, "bounce " + std::to_string(k + 1), ink);
+  std::uint32_t y = gap + line;
+  for (row const& r : rows_) {
+    sheet.text(gap, y, r.schedule, ink);
+    std::uint32_t x = left;
+    for (heatmap const& map : r.bounces) {
+      image const picture = colored(map);
+      sheet.paste(x, y, picture);
+      char percent[32];
+      std::snprintf(percent, sizeof(percent), "%.0f %%", 100 * map.mean);
+      sheet.text(x, y + picture.height + 4, percent, ink);
+      x += wide;
+    }
+    y += high;
+  }
+  for (std::uint32_t k = 0; k < lines; ++k) sheet.text(gap, foot + k * line, remarks[k], ink);
+  draw_scale(sheet, gap, foot + lines * line + 4);
+  return sheet.picture();
 }
 
 }  // namespace path_tracer

@@ -25,10 +25,6 @@
 
 namespace path_tracer {
 
-/// A batch holds one sample of each pixel where that makes no more than 2^20 paths, else so many.
-inline constexpr std::uint64_t small_batch = std::uint64_t{1} << 18;
-inline constexpr std::uint64_t large_batch = std::uint64_t{1} << 20;
-
 /// The shader of an effect, where a set has it.
 template <class Effect, class Set>
 auto make_shader(batch_view<Set> const& w, scene_view const& s) {
@@ -89,7 +85,7 @@ class integrator {
     auto const start = clock::now();
     std::uint64_t const pixels = std::uint64_t{settings_.width} * settings_.height;
     std::uint64_t const items = pixels * settings_.samples;
-    std::uint64_t const batch_size = glm::min(items, glm::clamp(pixels, small_batch, large_batch));
+    std::uint64_t const batch_size = batch_size_of(settings_);
     batch_storage<Backend, Set> storage(backend_, batch_size);
     batch_view<Set> batch = storage.view();
     batch.seed = settings_.seed;
@@ -198,7 +194,16 @@ class integrator {
       if (settings_.statistics) b.group_ms += group_time_.milliseconds();
       if (settings_.statistics && batch.first == 0)
         aside([&] { measure_efficiency(schedule, backend_.to_host(batch.id, paths), batch, b); });
+      if (settings_.statistics && batch.bounce == 0 && batch.first < batch.pixels)
+        aside([&] { keep_first_shaders(backend_.to_host(batch.id, paths), batch.pixels); });
     }
+  }
+
+  /// Takes the ids of the first hits, of one sample for each pixel: those come first in a picture.
+  void keep_first_shaders(std::vector<std::uint8_t> const& ids, std::size_t pixels) {
+    std::vector<std::uint8_t>& kept = result_.first_shaders;
+    auto const count = static_cast<std::ptrdiff_t>(glm::min(ids.size(), pixels - kept.size()));
+    kept.insert(kept.end(), ids.begin(), ids.begin() + count);
   }
 
   Backend const& backend_;

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <iostream>
 #include <new>
 #include <string>
+#include <vector>
 
+#include "app/heatmap.hpp"
 #include "app/options.hpp"
 #include "app/progress.hpp"
 #include "app/report.hpp"
+#include "app/shader_ids.hpp"
+#include "app/table.hpp"
 #include "app/trace.hpp"
 #include "effects/scene_effects.hpp"
 #include "io/gltf.hpp"
@@ -29,38 +32,72 @@ void complain(std::string text) {
 
 /// Fails before the work rather than after it.
 void check_outputs(options const& o) {
-  check_writable(o.output);
-  if (!o.report.empty()) check_writable(o.report);
-  if (!o.trace.empty()) check_writable(o.trace);
-  if (o.heatmap_folder.empty()) return;
-  std::error_code error;
-  std::filesystem::create_directories(o.heatmap_folder, error);
-  if (error) throw std::runtime_error("cannot make " + o.heatmap_folder + ": " + error.message());
-  check_writable((std::filesystem::path(o.heatmap_folder) / "bounce_01.png").string());
+  for (std::string const& path : {o.output, o.report, o.heatmap_sheet, o.shader_ids, o.trace})
+    if (!path.empty()) check_writable(path);
+}
+
+render_result render_once(options const& o, scene const& s, render_settings const& settings,
+                          std::string const& label) {
+  if (o.quiet) return render(s, settings);
+  progress shown(label, stderr);
+  return render(s, settings, [&](double fraction) { shown(fraction); });
 }
 
 render_result render_with(options const& o, scene const& s, std::string const& schedule) {
   render_settings settings = o.settings;
   settings.schedule = schedule;
   settings.statistics =
-      o.settings.schedule == "all" || !o.report.empty() || !o.heatmap_folder.empty();
+      o.compares() || !o.report.empty() || !o.heatmap_sheet.empty() || !o.shader_ids.empty();
   if (!o.trace.empty()) settings.most_spans = most_traced_spans;
-  if (o.quiet) return render(s, settings);
-  progress shown(schedule, stderr);
-  return render(s, settings, [&](double fraction) { shown(fraction); });
+  return render_once(o, s, settings, schedule);
 }
 
-void print_summary(options const& o, std::vector<run> const& runs) {
+/// Renders a batch and drops it: no clock counts what comes first alone, such as the start of
+/// threads, pages of memory that are new, or the way of the kernels to a GPU.
+void warm_up(options const& o, scene const& s) {
+  if (!o.compares() && o.report.empty()) return;
+  render_settings settings = o.settings;
+  settings.schedule = o.schedules.front();
+  settings.statistics = true;
+  std::uint64_t const pixels = std::uint64_t{settings.width} * settings.height;
+  settings.samples = static_cast<std::uint32_t>((batch_size_of(settings) + pixels - 1) / pixels);
+  render_once(o, s, settings, "warm-up");
+}
+
+/// All renderings, round by round: what slows a machine for a while then slows every schedule. The
+/// first has the picture; the others had the same.
+std::vector<run> render_all(options const& o, scene const& s, heatmap_sheet& sheet) {
+  warm_up(o, s);
+  std::vector<run> runs;
+  for (std::size_t k = 1; k <= o.repeat; ++k)
+    for (std::string const& name : o.schedules) {
+      runs.push_back({name, render_with(o, s, name), k});
+      run& last = runs.back();
+      if (!o.heatmap_sheet.empty() && k == 1) sheet.add(last);
+      for (bounce& b : last.result.bounces) b.pixel_efficiency = {};
+      if (runs.size() == 1) continue;
+      require_identical(runs.front(), last);
+      last.result.pixels = {};
+      last.result.first_shaders = {};
+    }
+  return runs;
+}
+
+void print_warnings(std::vector<run> const& runs) {
   for (run const& r : runs) {
     if (r.result.discarded_samples > 0)
       complain("warning: schedule " + r.schedule + " discarded " +
                std::to_string(r.result.discarded_samples) + " samples that were not finite");
     if (std::string const text = left_out(r); !text.empty()) complain("warning: " + text);
   }
-  if (o.settings.schedule == "all") {
-    std::cout << table(runs);
-    std::cout << "all " << runs.size() << " pictures are bit-identical\n";
-  }
+}
+
+void print_summary(options const& o, std::vector<run> const& runs) {
+  if (!o.quiet) print_warnings(runs);
+  if (o.compares())
+    std::cout << table(runs) << in_short(runs) << "All " << runs.size()
+              << " pictures are bit-identical.\n";
+  if (o.quiet) return;
   std::cout << o.output << ": " << o.settings.width << " x " << o.settings.height << ", "
             << o.settings.samples << " samples per pixel, " << runs.front().result.rays << " rays, "
             << duration(runs.front().result.seconds) << "\n";
@@ -75,30 +112,26 @@ scene load(options& o) {
 }
 
 void run_all(options o) {
-  check_outputs(o);
+  if (!o.explain) check_outputs(o);
   scene const s = load(o);
   if (!o.quiet)
     for (std::string const& warning : s.warnings) complain("warning: " + warning);
-
-  if (o.explain) std::cout << explain(s, o.settings.variant) << std::flush;
-
-  bool const all = o.settings.schedule == "all";
-  std::vector<run> runs;
-  for (std::string_view const name :
-       all ? schedules() : std::vector<std::string_view>{o.settings.schedule}) {
-    runs.push_back({std::string(name), render_with(o, s, std::string(name))});
-    run& last = runs.back();
-    if (!o.heatmap_folder.empty()) write_heatmaps(o.heatmap_folder, o.settings, last, all);
-    for (bounce& b : last.result.bounces) b.pixel_efficiency = {};
-    if (runs.size() > 1) {
-      require_identical(runs.front(), last);
-      last.result.pixels = {};
-    }
+  if (o.explain) {
+    std::cout << explain(s, o.settings.variant) << "This was --explain: nothing is rendered.\n";
+    return;
   }
-  write_image(o.output, {o.settings.width, o.settings.height, runs.front().result.pixels});
+
+  heatmap_sheet sheet(o.settings);
+  std::vector<run> const runs = render_all(o, s, sheet);
+  write_image(o.output, {o.settings.width, o.settings.height, runs.front().result.pixels},
+              o.exposure);
+  if (!o.heatmap_sheet.empty()) write_image(o.heatmap_sheet, sheet.draw());
+  if (!o.shader_ids.empty())
+    write_image(o.shader_ids, shader_id_picture(o.settings.width, o.settings.height,
+                                                runs.front().result.first_shaders));
   if (!o.report.empty()) write_file(o.report, json_report(o, s.triangles.size(), runs));
   if (!o.trace.empty()) write_file(o.trace, trace_json(o, runs));
-  if (!o.quiet) print_summary(o, runs);
+  print_summary(o, runs);
 }
 
 }  // namespace

@@ -80,6 +80,12 @@ void specialize(render_settings& settings, scene const& s) {
   settings.expected = shaders_of(called);
 }
 
+std::uint64_t batch_size_of(render_settings const& settings) {
+  constexpr std::uint64_t small = std::uint64_t{1} << 18, large = std::uint64_t{1} << 20;
+  std::uint64_t const pixels = std::uint64_t{settings.width} * settings.height;
+  return std::min(pixels * settings.samples, std::clamp(pixels, small, large));
+}
+
 render_result render(scene const& s, render_settings const& settings,
                      std::function<void(double)> const& progress) {
   auto const& list = all_backends();

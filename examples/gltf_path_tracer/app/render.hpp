@@ -47,9 +47,10 @@ struct bounce {
 struct render_result {
   std::vector<rgb> pixels;  ///< linear RGB radiance, row 0 on top
   std::vector<bounce> bounces;
-  double seconds = 0;                   ///< without what statistics took
-  std::uint64_t rays = 0;               ///< closest-hit and shadow rays
-  std::uint64_t discarded_samples = 0;  ///< samples that were not finite
+  std::vector<std::uint8_t> first_shaders;  ///< per pixel, of its first hit; with statistics
+  double seconds = 0;                       ///< without what statistics took
+  std::uint64_t rays = 0;                   ///< closest-hit and shadow rays
+  std::uint64_t discarded_samples = 0;      ///< samples that were not finite
   path_tracer::timeline timeline;
 };
 
@@ -60,6 +61,10 @@ std::vector<std::string_view> schedules();
 /// Chooses the least code that has all effects which the scene calls for, and the shaders of its
 /// materials.
 void specialize(render_settings& settings, scene const& s);
+
+/// How many paths are traced together: one sample of each pixel, but from 2^18 to 2^20 paths, and
+/// no more than the picture has.
+std::uint64_t batch_size_of(render_settings const& settings);
 
 /// Renders `s`; calls `progress` with the fraction done, from the calling thread.
 /// Throws std::invalid_argument for a name that the lists above do not have, and for code that

@@ -45,13 +45,17 @@ json event_of(span const& s, std::size_t process) {
 
 }  // namespace
 
+std::string title_of(run const& r) {
+  std::string const number = r.repetition > 1 ? ", repetition " + std::to_string(r.repetition) : "";
+  return "schedule " + r.schedule + number;
+}
+
 std::string left_out(run const& r) {
   timeline const& t = r.result.timeline;
   if (t.batches_in_it == t.batches) return "";
-  return "the trace of schedule " + r.schedule + " has the first " +
-         std::to_string(t.batches_in_it) + " of " + std::to_string(t.batches) +
-         " batches: it ends with the one that reaches " + std::to_string(most_traced_spans) +
-         " spans";
+  return "the trace of " + title_of(r) + " has the first " + std::to_string(t.batches_in_it) +
+         " of " + std::to_string(t.batches) + " batches: it ends with the one that reaches " +
+         std::to_string(most_traced_spans) + " spans";
 }
 
 std::string trace_json(options const& o, std::vector<run> const& runs) {
@@ -60,8 +64,7 @@ std::string trace_json(options const& o, std::vector<run> const& runs) {
   bool const on_gpu = o.settings.backend == "cuda";
   for (std::size_t k = 0; k < runs.size(); ++k) {
     std::size_t const process = k + 1;
-    lines.push_back(
-        line(name_of("process_name", process, host_of(process), "schedule " + runs[k].schedule)));
+    lines.push_back(line(name_of("process_name", process, host_of(process), title_of(runs[k]))));
     lines.push_back(line(name_of("thread_name", process, host_of(process),
                                  on_gpu ? "host: submission" : o.settings.backend + ": work")));
     if (on_gpu)

@@ -35,11 +35,12 @@ std::uint8_t encode_srgb(float linear) {
   return static_cast<std::uint8_t>(std::lround(encoded * 255.0f));
 }
 
-std::string encode_png(image const& picture) {
+std::string encode_png(image const& picture, float exposure) {
+  float const scale = std::exp2(exposure);
   std::vector<std::uint8_t> bytes;
   bytes.reserve(3 * picture.pixels.size());
   for (rgb const& p : picture.pixels)
-    for (int i = 0; i < 3; ++i) bytes.push_back(encode_srgb(p[i]));
+    for (int i = 0; i < 3; ++i) bytes.push_back(encode_srgb(scale * p[i]));
   std::string result;
   auto const append = [](void* to, void* data, int size) {
     static_cast<std::string*>(to)->append(static_cast<char const*>(data),
@@ -108,8 +109,8 @@ std::string encode_exr(image const& picture) {
 }
 #endif
 
-std::string encode(std::string const& format, image const& picture) {
-  if (format == ".png") return encode_png(picture);
+std::string encode(std::string const& format, image const& picture, float exposure) {
+  if (format == ".png") return encode_png(picture, exposure);
   if (format == ".pfm") return encode_pfm(picture);
 #ifdef PATH_TRACER_HAS_OPENEXR
   if (format == ".exr") return encode_exr(picture);
@@ -132,8 +133,8 @@ bool has_image_ending(std::string const& path) {
   return std::find(endings.begin(), endings.end(), ending(path)) != endings.end();
 }
 
-void write_image(std::string const& path, image const& picture) {
-  write_file(path, encode(ending(path), picture));
+void write_image(std::string const& path, image const& picture, float exposure) {
+  write_file(path, encode(ending(path), picture, exposure));
 }
 
 }  // namespace path_tracer

@@ -23,10 +23,11 @@ std::vector<std::string_view> image_endings();
 bool has_image_ending(std::string const& path);
 
 /// Writes a picture in the format of the path's ending, whole or not at all.
-/// - .png: 8 bits, values clamped to [0, 1] (NaN: 0) and sRGB-encoded; no tone mapping.
+/// - .png: 8 bits, values times 2^`exposure` clamped to [0, 1] (NaN: 0) and sRGB-encoded; no tone
+///   mapping.
 /// - .pfm: 32-bit floats as they are, little-endian, bottom row first as the format has it.
 /// - .exr: 32-bit floats as they are, ZIP-compressed; Rec. 709 primaries, the format's default.
 /// Throws std::invalid_argument for another ending and std::runtime_error as `write_file` does.
-void write_image(std::string const& path, image const& picture);
+void write_image(std::string const& path, image const& picture, float exposure = 0);
 
 }  // namespace path_tracer
