@@ -64,6 +64,21 @@ inline array<std::uint8_t> make_ids(std::size_t n, ds::shader_id shaders,
   return ids;
 }
 
+struct uneven_id {
+  std::uint32_t shaders;
+  DEFERRED_SHADE_HOST_DEVICE std::uint8_t operator()(request_index i) const {
+    std::uint32_t const rare = 1 + random_bits(i, 1) % (shaders - 1);
+    return static_cast<std::uint8_t>(random_bits(i, 0) % 100 < 95 ? 0 : rare);
+  }
+};
+
+/// `n` ids in any order, 95 of 100 of shader 0, the others of the other shaders alike.
+inline array<std::uint8_t> make_uneven_ids(std::size_t n, ds::shader_id shaders) {
+  array<std::uint8_t> ids(n);
+  thrust::tabulate(policy(), ids.begin(), ids.end(), uneven_id{shaders});
+  return ids;
+}
+
 struct make_request {
   DEFERRED_SHADE_HOST_DEVICE request operator()(std::size_t index) const {
     auto const i = static_cast<request_index>(index);
@@ -121,13 +136,16 @@ struct view {
 class batch {
  public:
   batch(std::size_t n, ds::shader_id shaders, std::uint32_t run)
-      : ids_(make_ids(n, shaders, run)),
-        requests_(n),
-        sorted_ids_(ids_),
-        sorted_requests_(n),
-        order_(n),
-        results_(n),
-        expected_(n) {
+      : batch(make_ids(n, shaders, run), shaders) {}
+
+  batch(array<std::uint8_t> const& ids, ds::shader_id shaders)
+      : ids_(ids),
+        requests_(ids.size()),
+        sorted_ids_(ids),
+        sorted_requests_(ids.size()),
+        order_(ids.size()),
+        results_(ids.size()),
+        expected_(ids.size()) {
     thrust::tabulate(policy(), requests_.begin(), requests_.end(), make_request{});
     thrust::sequence(policy(), order_.begin(), order_.end());
     thrust::stable_sort_by_key(policy(), sorted_ids_.begin(), sorted_ids_.end(), order_.begin());
@@ -139,7 +157,7 @@ class batch {
     thrust::lower_bound(policy(), sorted_ids_.begin(), sorted_ids_.end(), table.begin(),
                         table.end(), first.begin());
     offsets_ = first;
-    offsets_.push_back(static_cast<request_index>(n));
+    offsets_.push_back(static_cast<request_index>(ids.size()));
   }
 
   /// The requests as they come, or sorted.

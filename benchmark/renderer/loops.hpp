@@ -99,7 +99,7 @@ struct queues {
   }
 };
 
-inline __global__ void fill_queues(std::size_t n, std::uint8_t const* ids, queues to) {
+static __global__ void fill_queues(std::size_t n, std::uint8_t const* ids, queues to) {
   std::size_t const i = std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
   if (i < n) to.push(ids[i], static_cast<request_index>(i));
 }

@@ -41,7 +41,7 @@ DEFERRED_SHADE_HOST_DEVICE inline std::uint32_t next_random(path& p) {
 
 /// The loop's length in a material's shader: short, medium or long, by turns; medium if there is
 /// one material alone.
-constexpr int length_of(int material, std::uint32_t materials) {
+DEFERRED_SHADE_HOST_DEVICE constexpr int length_of(int material, std::uint32_t materials) {
   int const lengths[] = {16, 64, 256};
   return lengths[materials == 1 ? 1 : material % 3];
 }
@@ -72,7 +72,8 @@ DEFERRED_SHADE_HOST_DEVICE std::uint8_t shade_hit(path& p, hit& h, scene const& 
   float x = h.position[0];
   float y = h.position[1] + h.normal[1];
   float z = h.position[2] * h.u + p.time;
-  for (int i = 0; i < length_of(Material, Materials); ++i) {
+  constexpr int length = length_of(Material, Materials);
+  for (int i = 0; i < length; ++i) {
     x = x * roughness + y * 0.25F + 0.01F;
     y = y * 0.75F - z * roughness * 0.125F;
     z = z * 0.5F + x * h.v * 0.25F;
