@@ -20,7 +20,6 @@ struct numbered {
   std::uint32_t number;
   std::uint32_t* out;
   DEFERRED_SHADE_HOST_DEVICE void operator()(ds::request_index i) const { out[i] = number + i; }
-  auto operator&() const = delete;  // which nobody may ask for
 };
 template <int>
 struct of_its_own {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "benchmark/machine.hpp"
+#include "../machine.hpp"
 #include "path.hpp"
 
 namespace renderer {

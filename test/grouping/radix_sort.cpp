@@ -23,7 +23,7 @@ TEMPLATE_LIST_TEST_CASE("group_by_radix_sort is a stable sort by shader", "[grou
   check<TestType, std::int16_t, 33>();
   check<TestType, std::uint8_t, 255>();
   check<TestType, std::uint16_t, 256>();  // two-byte keys from here on
-  if (test::quick()) return;  // under racecheck, minutes
+  if (test::quick()) return;              // under racecheck, minutes
   check<TestType, std::uint32_t, 1000>();
   check<TestType, std::int32_t, 3000>();
 }
