@@ -96,31 +96,20 @@ class shader_table : public detail::shader_list<Shaders...> {
 template <class... Shaders>
 shader_table(Shaders...) -> shader_table<Shaders...>;
 
-/// One of several shaders that share a callable, `function(id, i)`, for request i of shader `id`.
-/// Materials that share most of their code, next-event estimation for example, should share one: a
-/// schedule with a switch then runs the lanes of all of them together, and the callable branches
-/// where they differ. (Shaders of one type share code without this.)
-template <class Function>
-struct shared_shader {
-  Function function;
-  shader_id id;
-
-  DEFERRED_SHADE_EXEC_CHECK_DISABLE
-  DEFERRED_SHADE_HOST_DEVICE void operator()(request_index i) const {
-    static_cast<void>(function(id, i));
-  }
-};
-
 namespace detail {
 
 template <class Function, shader_id... Ids>
 constexpr auto shared_among(Function const& function, std::integer_sequence<shader_id, Ids...>) {
-  return shader_table{shared_shader<Function>{function, Ids}...};
+  return shader_table{shared_shader<Function>(function, Ids)...};
 }
 
 }  // namespace detail
 
-/// A table of `Count` shaders that share a callable.
+/// A table of `Count` shaders that share a callable: `function(id, i)`, for request i of shader
+/// `id`. A schedule with a switch runs the lanes of all of them together, and the callable branches
+/// where they differ. For materials that share most of their code, next-event estimation for
+/// example: compilers make a copy of that code for each of several types, and lanes in different
+/// copies do not run together. (Shaders of one type share code without this.)
 ///
 ///     auto const shaders = ds::shared_shaders<6>(shade_any{scene, paths});
 template <shader_id Count, class Function>

@@ -8,6 +8,7 @@
 #include <deferred_shade/config.hpp>
 #include <deferred_shade/detail/bits.hpp>
 #include <deferred_shade/detail/device_lambda.hpp>
+#include <deferred_shade/detail/shared_shader.hpp>
 #include <deferred_shade/types.hpp>
 
 namespace deferred_shade {
@@ -167,6 +168,13 @@ class shader_list {
     if constexpr (types.count[Id - First] == 1) {
       if (id != Id) return false;
       if constexpr (has<Id>) f(get<Id>());
+      return true;
+    } else if constexpr (types.count[Id - First] > 1 && is_shared<type_at<Id>>) {
+      if (!((std::is_same_v<type_at<Id>, type_at<First + Offsets>> && id == First + Offsets) ||
+            ...)) {
+        return false;
+      }
+      f(get<Id>().with_id(id));
       return true;
     } else if constexpr (types.count[Id - First] > 1) {
       type_at<Id> const* shader = nullptr;

@@ -49,12 +49,12 @@ bool are_wide(moved<T> array) {
 }
 
 /// Moves the elements at the `size` places from `first` on, in `Rows` rows of 32. This lane knows
-/// those of its own column: others[r] stands at place first + r * 32 + lane. Up to four words are
+/// those of its own column: others[r] stands at place first + r * 32 + lane. Up to eight words are
 /// under way at a time.
 template <bool Scatter, std::uint32_t Words, std::uint32_t Rows, class Word>
 __device__ void move_rows(Word const* from, Word* to, request_index const* others,
                           std::size_t first, std::uint32_t size) {
-  constexpr std::uint32_t staged = Words < 4 ? Words : 4;
+  constexpr std::uint32_t staged = Words <= 8 ? Words : 4;
   std::uint32_t const lane = threadIdx.x % warp_size;
 #pragma unroll(Words <= 16 ? (Words + staged - 1) / staged : 1)
   for (std::uint32_t k = 0; k < Words; k += staged) {
