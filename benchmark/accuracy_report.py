@@ -179,22 +179,49 @@ def plot(files):
     return d.render()
 
 
+def seconds_per_sample(reports):
+    """{scene: {schedule: seconds of a sample, run by run}}"""
+    found = {}
+    for report in map(json.loads, pathlib.Path(reports).read_text(encoding="utf-8").splitlines()):
+        times = found.setdefault(pathlib.Path(report["scene"]).stem, {})
+        for run in report["schedules"]:
+            times.setdefault(run["schedule"], []).append(run["seconds"] / report["settings"]["spp"])
+    return found
+
+
+def medians(reports):
+    return {scene: {name: statistics.median(several) for name, several in times.items()}
+            for scene, times in seconds_per_sample(reports).items()}
+
+
 def schedules(path, reports):
     """Medians over a scene's reports; the spread is the largest of any schedule."""
-    scenes, runs = read(path), {}
-    for report in map(json.loads, pathlib.Path(reports).read_text(encoding="utf-8").splitlines()):
-        runs.setdefault(pathlib.Path(report["scene"]).stem, []).append(report)
-    rows, names = [], []
-    for scene, several in runs.items():
-        spp = samples_for(scenes[scene], 0.01)
-        names = [s["schedule"] for s in several[0]["schedules"]]
-        times = [[run["schedules"][k]["seconds"] / run["settings"]["spp"] for run in several] for k in range(len(names))]
-        medians = [statistics.median(t) for t in times]
-        spread = max((max(t) - min(t)) / m for t, m in zip(times, medians))
-        best = min(medians)
-        rows.append([scene, f"{spp:.3g}", len(several), percent(spread)] +
-                    [f"**{m * spp:.3g}**" if m == best else f"{m * spp:.3g}" for m in medians])
+    scenes, middle, rows, names = read(path), medians(reports), [], []
+    for scene, times in seconds_per_sample(reports).items():
+        spp, names = samples_for(scenes[scene], 0.01), list(times)
+        spread = max((max(t) - min(t)) / middle[scene][n] for n, t in times.items())
+        best = min(middle[scene].values())
+        rows.append([scene, f"{spp:.3g}", len(times[names[0]]), percent(spread)] +
+                    [f"**{m * spp:.3g}**" if m == best else f"{m * spp:.3g}" for m in middle[scene].values()])
     return markdown.table(["scene", "samples", "runs", "spread"] + [f"`{n}`" for n in names], rows)
+
+
+def of_setting(path, setting, what, spp):
+    """{scene: the time, efficiency or mean square error of a setting over the defaults', all with these samples; or its
+    bias, if it is found in the noise}"""
+    found = {}
+    for scene, results in read(path).items():
+        same = {name(r).removeprefix(f"spp {spp}, "): r for r in results if r["setting"]["spp"] == spp}
+        base = next(r for r in same.values() if set(r["changes"]) <= {"spp"})
+        if (r := same.get(setting)) is None:
+            continue
+        if what == "bias":
+            if bias(r) != "-":
+                found[scene] = math.sqrt(r["relative_bias2"])
+        else:
+            key = {"time": "seconds", "efficiency": "efficiency", "mse": "relative_mse"}[what]
+            found[scene] = r[key] / base[key]
+    return found
 
 
 def main(arguments):

@@ -8,7 +8,8 @@
     <!-- plot: PLOT FILE... OPTION=VALUE... -->
     ![what is to be seen](plot.svg)
 
-A report that stands in the middle of a line has no line breaks around it. Besides these and the examples that
+A report that stands in the middle of a line has no line breaks around it. A figure in a sentence that looks measured
+stands in one: prose.py finds others. Besides these and the examples that
 test/readme.py puts in, a page has no comments: what looks like one is a marker gone wrong.
 """
 import re
