@@ -142,14 +142,30 @@ def front(results):
     return found
 
 
-def panel(d, title, results, top, height):
-    """Error over seconds of every setting of a scene, and a line through those that no other beats in both."""
-    left, right, bottom = 58, 424, top + height - 66
+AXES, ROW = 300, 17  # heights of a panel's axes with their words, and of a row of its key
+
+
+def keys(places, gap=16):
+    """Numbers of points from 1, [(first, last, place)]: points that lie on each other share one label."""
+    found = []
+    for k, (x, y) in enumerate(places, start=1):
+        if found and abs(x - found[-1][2][0]) < gap and abs(y - found[-1][2][1]) < gap:
+            found[-1] = found[-1][0], k, found[-1][2]
+        else:
+            found.append((k, k, (x, y)))
+    return found
+
+
+def panel(d, title, results, top):
+    """Error over seconds of every setting of a scene, a line through those that no other beats in both, and a key to
+    these."""
+    left, right, bottom = 62, 424, top + AXES - 66
     times, errors = [r["seconds"] for r in results], [math.sqrt(r["relative_mse"]) for r in results]
-    x = LogScale(min(times) / 1.15, max(times) * 1.15, left, right)
-    y = LogScale(min(errors) / 1.15, max(errors) * 1.15, bottom, top)
+    x = LogScale(min(times) / 1.3, max(times) * 1.15, left, right)
+    y = LogScale(min(errors) / 1.5, max(errors) * 1.15, bottom, top)
     best = front(results)
     d.text(8, top - 14, title, "strong")
+    d.text(right, top - 14, results[0]["machine"], "small soft", "end")
     for value in x.round_values():
         d.line([(x(value), top), (x(value), bottom)], "grid")
         d.text(x(value), bottom + 17, plain(value), "small soft", "middle")
@@ -158,24 +174,31 @@ def panel(d, title, results, top, height):
         d.text(left - 6, y(value) + 4, plain(100 * value), "small soft", "end")
     d.text((left + right) / 2, bottom + 36, "seconds", "", "middle")
     d.text(16, (top + bottom) / 2, "relative error, %", "", "middle", turned=True)
-    d.line([(x(r["seconds"]), y(math.sqrt(r["relative_mse"]))) for r in best], "line s0")
+
+    def place(r):
+        return x(r["seconds"]), y(math.sqrt(r["relative_mse"]))
+    d.line([place(r) for r in best], "line s0")
     for r in sorted(results, key=lambda r: r in best):
         error = math.sqrt(r["relative_mse"])
-        d.mark("disc" if r in best else "diamond", x(r["seconds"]), y(error), "s0" if r in best else "s4",
+        d.mark("disc" if r in best else "diamond", *place(r), "s0" if r in best else "s4",
                f"{name(r)}: {percent(error)} in {r['seconds']:.3g} s")
+    for first, last, (px, py) in keys([place(r) for r in best]):
+        d.text(px - 2, py + 18, f"{first}" if first == last else f"{first}-{last}", "small", "end")
+    for k, r in enumerate(best):
+        d.text(left, bottom + 58 + ROW * k, f"{k + 1}", "small soft", "end")
+        d.text(left + 8, bottom + 58 + ROW * k, name(r), "small")
 
 
 def plot(files):
-    panels = [(f"{scene}, {results[0]['machine']}, {results[0]['backend']}", results)
-              for file in files for scene, results in read(file).items()]
-    height = 300
-    d = Drawing(440, height * len(panels) + 44, "Relative error over seconds of the path tracer's settings")
+    panels = [pair for file in files for pair in read(file).items()]
+    heights = [AXES + ROW * len(front(results)) + 14 for _, results in panels]
+    d = Drawing(440, sum(heights) + 64, "Relative error over seconds of the path tracer's settings")
     d.mark("disc", 16, 16, "s0")
-    d.text(26, 20, "no other beats it in both")
-    d.mark("diamond", 221, 16, "s4")
-    d.text(231, 20, "another is faster and nearer")
+    d.text(26, 20, "no other setting is faster and nearer (named below)", "small")
+    d.mark("diamond", 16, 36, "s4")
+    d.text(26, 40, "another one is (named in the tables)", "small")
     for k, (title, results) in enumerate(panels):
-        panel(d, title, results, height * k + 66, height)
+        panel(d, title, results, sum(heights[:k]) + 86)
     return d.render()
 
 

@@ -12,6 +12,8 @@ A report that stands in the middle of a line has no line breaks around it. A fig
 stands in one: prose.py finds others. Besides these and the examples that
 test/readme.py puts in, a page has no comments: what looks like one is a marker gone wrong.
 """
+import os
+import pathlib
 import re
 import shlex
 
@@ -85,7 +87,7 @@ class Pages:
         self.count += len(REPORT.findall(text)) + len(PLOT.findall(text))
         found = {page: REPORT.sub(lambda m: f"{m[1]}{m[3]}{made(m, m[2], self.views)}{m[3]}{m[5]}", text)}
         for match in PLOT.finditer(text):
-            found[page.parent / match[2]] = made(match, match[1], self.plots)
+            found[pathlib.Path(os.path.normpath(page.parent / match[2]))] = made(match, match[1], self.plots)
         return found
 
     def stale(self):
