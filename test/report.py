@@ -36,6 +36,7 @@ FAULTS = [
     ("docs/results/cpu.md", r"\*\*Noise\.\*\*", "It is twice as fast.", r"cpu\.md:\d+: 'twice as' looks measured"),
     ("docs/accuracy.md", r"<!-- report: accuracy-of[^>]*-->([\d. to]+)<!-- end of report -->", r"\g<1>",
      r"accuracy\.md:\d+: '[\d. to]+' looks measured"),
+    ("docs/concepts.md", "This is \\*\\*div", "It is 13x slower. This is **div", r"concepts\.md:\d+: '13x' looks measured"),
     ("docs/paper.md", "report: scene-share scenes-h200", "report: scene-share scenes-cpu", r"paper\.md: line \d+ is"),
     ("docs/accuracy.md", 'setting="max-depth 4"', 'setting="max-depth 5"', r"accuracy\.md:\d+: .*no cell is like that"),
     (RAW + "scenes-h200.json", '"seconds": 0.0', '"seconds": 0.1', r"md: line \d+ is"),

@@ -16,11 +16,13 @@ UNIT = (r"(?:%|per cent|percent|times|ns|µs|us|ms|seconds?|milliseconds?|micros
         r"[GM]Hz|cycles|million|thousand million|points?)(?![\w-])")
 FIGURE = re.compile("|".join([
     rf"{NUMBER}(?: (?:to|and|or) {NUMBER})?[ -]?{UNIT}",
+    rf"{NUMBER}(?:x|×|-fold)(?!\w)|\bfactor of {NUMBER}|{NUMBER} of {NUMBER}",
     rf"{COUNT}(?: (?:to|and|or) {COUNT})? (?:times|per cent|percent)\b",
     rf"\b(?:a|an|one|two|three|four|five|nine)[ -]{PART}\b",
     r"\b(?:half (?:of|the|as|again|more)|twice (?:as|the)|doubles?d? (?:the|its)|(?:by|in) half|(?:three|four|ten)fold)\b",
     rf"(?<![\w.:])\d+\.\d+(?![\w.])"]), re.IGNORECASE)
-VERSION = re.compile(r"\b(?:CCCL|CMake|nvcc|CUDA|Apache|g\+\+|clang|capabilit(?:y|ies)) [\d.]+(?:(?:,| to| and) [\d.]+)*")
+VERSION = re.compile(r"\b(?:CCCL|CMake|nvcc|CUDA|Apache|g\+\+|clang|capabilit(?:y|ies)) [\d.]+(?:(?:,| to| and) [\d.]+)*"
+                     rf"(?! ?{UNIT})")
 FENCE = re.compile(r"^ *(```|~~~).*?^ *\1[^\n]*$", re.DOTALL | re.MULTILINE)
 CODE = re.compile(r"`+[^`]+?`+")
 ADDRESS = re.compile(r"\]\([^()\s]+\)|https?://\S+")

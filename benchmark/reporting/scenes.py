@@ -123,12 +123,12 @@ def times(path):
     rows = [[f"`{name}`"] + [cell(s, name) for s in scenes] for name in names]
     for words, of in (("", names), ("the paper's ", [name for name in names if name in SCHEDULES])):
         rows.append([f"*{words}fastest*"] + [f"`{timed.fastest(s, of)}`" for s in scenes])
-        for what, of_what in (("shading", "shading"), ("picture", "the whole picture")):
-            rows.append([f"*{of_what}, as fast as `implicit`*"] +
-                        [f"{timed.gain(s, of, what):.2f} times" for s in scenes])
-    rows.append(["*shading in the paper*"] + [scene.words() for scene in SCENES])
+        for what, of_what in (("shading", "shading"), ("picture", "the picture")):
+            rows.append([f"*speedup of {of_what}*"] +
+                        [f"{timed.gain(s, of, what):.2f}" for s in scenes])
+    rows.append(["*in the paper*"] + [scene.words() for scene in SCENES])
     rows.append(["*the rest of a picture, ms*"] + [in_words(timed.rest[s]) for s in scenes])
-    rows.append(["*share of shading by `implicit`*"] + [f"{100 * timed.share(s, 'implicit'):.0f} %" for s in scenes])
+    rows.append(["*share of shading, by `implicit`*"] + [f"{100 * timed.share(s, 'implicit'):.0f} %" for s in scenes])
     settings, runs = timed.result["reports"][0]["settings"], len(timed.shading[scenes[0], "implicit"])
     result = timed.result
     return "\n\n".join([
