@@ -34,10 +34,11 @@ def in_full(value):
 
 
 def parse(words, raw):
-    """The name of a view, its files, and its options."""
+    """The name of a view, its files, which a * may stand for, and its options."""
     name, *rest = shlex.split(words)
     options = {word.split("=", 1)[0]: in_full(word.split("=", 1)[1]) for word in rest if "=" in word}
-    files = [raw / word for word in rest if "=" not in word]
+    files = [file for word in rest if "=" not in word
+             for file in (sorted(raw.glob(word)) if "*" in word else []) or [raw / word]]
     missing = [file.name for file in files if not file.is_file()]
     if missing:
         raise Stale(f"{words}: there is no raw data {', '.join(missing)}")
