@@ -142,14 +142,30 @@ def front(results):
     return found
 
 
-def panel(d, title, results, top, height):
-    """Error over seconds of every setting of a scene, and a line through those that no other beats in both."""
-    left, right, bottom = 58, 424, top + height - 66
+AXES, ROW = 300, 17  # heights of a panel's axes with their words, and of a row of its key
+
+
+def keys(places, gap=16):
+    """Numbers of points from 1, [(first, last, place)]: points that lie on each other share one label."""
+    found = []
+    for k, (x, y) in enumerate(places, start=1):
+        if found and abs(x - found[-1][2][0]) < gap and abs(y - found[-1][2][1]) < gap:
+            found[-1] = found[-1][0], k, found[-1][2]
+        else:
+            found.append((k, k, (x, y)))
+    return found
+
+
+def panel(d, title, results, top):
+    """Error over seconds of every setting of a scene, a line through those that no other beats in both, and a key to
+    these."""
+    left, right, bottom = 62, 424, top + AXES - 66
     times, errors = [r["seconds"] for r in results], [math.sqrt(r["relative_mse"]) for r in results]
-    x = LogScale(min(times) / 1.15, max(times) * 1.15, left, right)
-    y = LogScale(min(errors) / 1.15, max(errors) * 1.15, bottom, top)
+    x = LogScale(min(times) / 1.3, max(times) * 1.15, left, right)
+    y = LogScale(min(errors) / 1.5, max(errors) * 1.15, bottom, top)
     best = front(results)
     d.text(8, top - 14, title, "strong")
+    d.text(right, top - 14, results[0]["machine"], "small soft", "end")
     for value in x.round_values():
         d.line([(x(value), top), (x(value), bottom)], "grid")
         d.text(x(value), bottom + 17, plain(value), "small soft", "middle")
@@ -158,43 +174,77 @@ def panel(d, title, results, top, height):
         d.text(left - 6, y(value) + 4, plain(100 * value), "small soft", "end")
     d.text((left + right) / 2, bottom + 36, "seconds", "", "middle")
     d.text(16, (top + bottom) / 2, "relative error, %", "", "middle", turned=True)
-    d.line([(x(r["seconds"]), y(math.sqrt(r["relative_mse"]))) for r in best], "line s0")
+
+    def place(r):
+        return x(r["seconds"]), y(math.sqrt(r["relative_mse"]))
+    d.line([place(r) for r in best], "line s0")
     for r in sorted(results, key=lambda r: r in best):
         error = math.sqrt(r["relative_mse"])
-        d.mark("disc" if r in best else "diamond", x(r["seconds"]), y(error), "s0" if r in best else "s4",
+        d.mark("disc" if r in best else "diamond", *place(r), "s0" if r in best else "s4",
                f"{name(r)}: {percent(error)} in {r['seconds']:.3g} s")
+    for first, last, (px, py) in keys([place(r) for r in best]):
+        d.text(px - 2, py + 18, f"{first}" if first == last else f"{first}-{last}", "small", "end")
+    for k, r in enumerate(best):
+        d.text(left, bottom + 58 + ROW * k, f"{k + 1}", "small soft", "end")
+        d.text(left + 8, bottom + 58 + ROW * k, name(r), "small")
 
 
 def plot(files):
-    panels = [(f"{scene}, {results[0]['machine']}, {results[0]['backend']}", results)
-              for file in files for scene, results in read(file).items()]
-    height = 300
-    d = Drawing(440, height * len(panels) + 44, "Relative error over seconds of the path tracer's settings")
+    panels = [pair for file in files for pair in read(file).items()]
+    heights = [AXES + ROW * len(front(results)) + 14 for _, results in panels]
+    d = Drawing(440, sum(heights) + 64, "Relative error over seconds of the path tracer's settings")
     d.mark("disc", 16, 16, "s0")
-    d.text(26, 20, "no other beats it in both")
-    d.mark("diamond", 221, 16, "s4")
-    d.text(231, 20, "another is faster and nearer")
+    d.text(26, 20, "no other setting is faster and nearer (named below)", "small")
+    d.mark("diamond", 16, 36, "s4")
+    d.text(26, 40, "another one is (named in the tables)", "small")
     for k, (title, results) in enumerate(panels):
-        panel(d, title, results, height * k + 66, height)
+        panel(d, title, results, sum(heights[:k]) + 86)
     return d.render()
+
+
+def seconds_per_sample(reports):
+    """{scene: {schedule: seconds of a sample, run by run}}"""
+    found = {}
+    for report in map(json.loads, pathlib.Path(reports).read_text(encoding="utf-8").splitlines()):
+        times = found.setdefault(pathlib.Path(report["scene"]).stem, {})
+        for run in report["schedules"]:
+            times.setdefault(run["schedule"], []).append(run["seconds"] / report["settings"]["spp"])
+    return found
+
+
+def medians(reports):
+    return {scene: {name: statistics.median(several) for name, several in times.items()}
+            for scene, times in seconds_per_sample(reports).items()}
 
 
 def schedules(path, reports):
     """Medians over a scene's reports; the spread is the largest of any schedule."""
-    scenes, runs = read(path), {}
-    for report in map(json.loads, pathlib.Path(reports).read_text(encoding="utf-8").splitlines()):
-        runs.setdefault(pathlib.Path(report["scene"]).stem, []).append(report)
-    rows, names = [], []
-    for scene, several in runs.items():
-        spp = samples_for(scenes[scene], 0.01)
-        names = [s["schedule"] for s in several[0]["schedules"]]
-        times = [[run["schedules"][k]["seconds"] / run["settings"]["spp"] for run in several] for k in range(len(names))]
-        medians = [statistics.median(t) for t in times]
-        spread = max((max(t) - min(t)) / m for t, m in zip(times, medians))
-        best = min(medians)
-        rows.append([scene, f"{spp:.3g}", len(several), percent(spread)] +
-                    [f"**{m * spp:.3g}**" if m == best else f"{m * spp:.3g}" for m in medians])
+    scenes, middle, rows, names = read(path), medians(reports), [], []
+    for scene, times in seconds_per_sample(reports).items():
+        spp, names = samples_for(scenes[scene], 0.01), list(times)
+        spread = max((max(t) - min(t)) / middle[scene][n] for n, t in times.items())
+        best = min(middle[scene].values())
+        rows.append([scene, f"{spp:.3g}", len(times[names[0]]), percent(spread)] +
+                    [f"**{m * spp:.3g}**" if m == best else f"{m * spp:.3g}" for m in middle[scene].values()])
     return markdown.table(["scene", "samples", "runs", "spread"] + [f"`{n}`" for n in names], rows)
+
+
+def of_setting(path, setting, what, spp):
+    """{scene: the time, efficiency or mean square error of a setting over the defaults', all with these samples; or its
+    bias, if it is found in the noise}"""
+    found = {}
+    for scene, results in read(path).items():
+        same = {name(r).removeprefix(f"spp {spp}, "): r for r in results if r["setting"]["spp"] == spp}
+        base = next(r for r in same.values() if set(r["changes"]) <= {"spp"})
+        if (r := same.get(setting)) is None:
+            continue
+        if what == "bias":
+            if bias(r) != "-":
+                found[scene] = math.sqrt(r["relative_bias2"])
+        else:
+            key = {"time": "seconds", "efficiency": "efficiency", "mse": "relative_mse"}[what]
+            found[scene] = r[key] / base[key]
+    return found
 
 
 def main(arguments):

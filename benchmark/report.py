@@ -3,7 +3,8 @@
 """Makes the tables and plots of the documentation from the raw data in docs/results.
 
     benchmark/report.py              puts them into the pages
-    benchmark/report.py --check      fails where a page has something else than the raw data gives
+    benchmark/report.py --check      fails where a page has something else than the raw data gives, and where a figure
+                                     in a sentence looks measured and no marker makes it
     benchmark/report.py --unused     raw data that no page names
     benchmark/report.py --run BUILD  runs the benchmarks of a build, for a GPU or for CPUs, into out/benchmark:
                                      raw data, and a page of tables and plots of it, report.md
@@ -15,7 +16,7 @@ import argparse
 import pathlib
 import sys
 
-from reporting import running
+from reporting import prose, running
 from reporting.pages import Pages, Stale, first_difference
 from reporting.views import PLOTS, VIEWS
 
@@ -49,9 +50,11 @@ def main():
         else:
             path.write_text(text, encoding="utf-8")
             print(f"{name} is new")
+    if unfounded := list(prose.unfounded(ROOT)):
+        sys.exit("\n".join(unfounded))
     if pages.count == 0 or (arguments.check and stale):
         sys.exit("not what the raw data gives; benchmark/report.py puts it in")
-    print(f"{pages.count} tables and plots are what the raw data gives")
+    print(f"{pages.count} tables, plots and figures are what the raw data gives")
 
 
 if __name__ == "__main__":

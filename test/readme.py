@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks that each code block of the README and docs/ that names an example is that example, line
 by line, and that each block that names two files and a limit is their diff, with fewer lines added
-and removed than that. `readme.py --write` puts the examples and diffs in."""
+and removed than that. `readme.py --write` puts the examples and diffs in. The README keeps to 110 lines, and the glossary
+has every term that it and the pictures' page define in bold."""
 import difflib
 import pathlib
 import re
@@ -46,4 +47,12 @@ if stale or count == 0:
     sys.exit(f"not the examples and diffs as they are: {stale}; test/readme.py --write puts them in")
 if wrong_length:
     sys.exit("; ".join(wrong_length))
+readme, glossary, pictures = ((root / name).read_text(encoding="utf-8")
+                              for name in ("README.md", "docs/glossary.md", "docs/concepts.md"))
+if readme.count("\n") > 110:
+    sys.exit(f"the README has {readme.count(chr(10))} lines instead of 110 at most")
+bold = re.compile(r"\*\*([a-z ]+?)s?\*\*")
+terms = set(bold.findall(readme + pictures))
+if not terms or terms - set(bold.findall(glossary)):
+    sys.exit(f"terms that the glossary lacks: {sorted(terms - set(bold.findall(glossary)))}")
 print(f"{count} code blocks are the examples and diffs that they name")

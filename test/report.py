@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Whether benchmark/report.py sees what is wrong with a page or with raw data, and says what and where: every fault
+"""Whether benchmark/report.py sees what is wrong with a page, a sentence or raw data, and says what and where: every fault
 below is put into a copy of the documentation, and the check has to fail with the words beside it."""
 import pathlib
 import re
@@ -11,6 +11,7 @@ import tempfile
 
 root = pathlib.Path(__file__).resolve().parent.parent
 RAW = "docs/results/"
+CLAIMS = RAW + "paper-claims.md"
 
 # file, what is replaced by a regular expression, by what, and what the check says
 FAULTS = [
@@ -18,15 +19,30 @@ FAULTS = [
     ("docs/paper-h200.svg", r'cx="\d', 'cx="7', r"paper-h200\.svg: line \d+ is"),
     ("docs/paper-h200.svg", None, None, r"paper-h200\.svg: there is no such file"),
     ("README.md", r"(<!-- report: span .*?-->)\d", r"\g<1>7", r"README\.md: line \d+ is"),
-    ("docs/paper.md", "report: scenes", "report: scene", r"paper\.md:\d+: .*there is no scene, but .*scenes"),
-    ("docs/paper.md", "plot: speedups", "plot: speedup", r"paper\.md:\d+: .*there is no speedup, but"),
-    ("docs/paper.md", "<!-- report: scenes", "<!-- reports: scenes", r"paper\.md:\d+: a marker that is none"),
-    ("docs/paper.md", "<!-- report: scenes", "<!--report: scenes", r"paper\.md:\d+: a marker that is none"),
-    ("docs/paper.md", "<!-- end of report", "<!-- end of raport", r"paper\.md:\d+: a marker that is none"),
-    ("docs/paper.md", r"(<!-- plot: .*-->)", r"\g<1>\n", r"paper\.md:\d+: .*a plot without its picture"),
-    ("docs/paper.md", " kind=record", " sort=record", r"paper\.md:\d+: .*unexpected keyword argument 'sort'"),
+    (CLAIMS, "report: scenes", "report: scene", r"claims\.md:\d+: .*there is no scene, but .*scenes"),
+    (CLAIMS, "plot: speedups", "plot: speedup", r"claims\.md:\d+: .*there is no speedup, but"),
+    (CLAIMS, "<!-- report: scenes", "<!-- reports: scenes", r"claims\.md:\d+: a marker that is none"),
+    (CLAIMS, "<!-- report: scenes", "<!--report: scenes", r"claims\.md:\d+: a marker that is none"),
+    (CLAIMS, "<!-- end of report", "<!-- end of raport", r"claims\.md:\d+: a marker that is none"),
+    (CLAIMS, r"(<!-- plot: .*-->)", r"\g<1>\n", r"claims\.md:\d+: .*a plot without its picture"),
+    (CLAIMS, " kind=record", " sort=record", r"claims\.md:\d+: .*unexpected keyword argument 'sort'"),
     ("README.md", r"\n[^\n]* (<!-- report: span)", r"\n\g<1>", r"README\.md:\d+: .* begins it"),
-    (RAW + "h200-schedules.json", None, None, r"paper\.md:\d+: .*there is no raw data h200-schedules\.json"),
+    # Sentences: a figure that was changed, one without a marker, in words too, one whose marker has gone, a marker that
+    # has another cell, raw data that has changed, and an exception that nothing needs.
+    ("README.md", r"(hit=4 -->)10 to 40", r"\g<1>10 to 14", r"README\.md: line \d+ is\n.*10 to 14 %"),
+    ("README.md", "A hit is a", "It is 3.7 times as fast. A hit is a", r"README\.md:\d+: '3\.7 times' looks measured"),
+    ("docs/paper.md", "- \\*\\*On a CPU, order", "- It takes 12 ms.\n- **On a CPU, order", r"paper\.md:\d+: '12 ms' looks"),
+    ("docs/schedules.md", "Divergence is cheap", "Divergence costs two thirds and is cheap", r"md:\d+: 'two thirds' looks"),
+    ("docs/results/cpu.md", r"\*\*Noise\.\*\*", "It is twice as fast.", r"cpu\.md:\d+: 'twice as' looks measured"),
+    ("docs/accuracy.md", r"<!-- report: accuracy-of[^>]*-->([\d. to]+)<!-- end of report -->", r"\g<1>",
+     r"accuracy\.md:\d+: '[\d. to]+' looks measured"),
+    ("docs/concepts.md", "This is \\*\\*div", "It is 13x slower. This is **div", r"concepts\.md:\d+: '13x' looks measured"),
+    ("docs/paper.md", "report: scene-share scenes-h200", "report: scene-share scenes-cpu", r"paper\.md: line \d+ is"),
+    ("docs/accuracy.md", 'setting="max-depth 4"', 'setting="max-depth 5"', r"accuracy\.md:\d+: .*no cell is like that"),
+    (RAW + "scenes-h200.json", '"seconds": 0.0', '"seconds": 0.1', r"md: line \d+ is"),
+    ("docs/paper.md", "within 25 per cent of the law", "close to the law", r"prose\.py allows 'it is within 25 per cent"),
+
+    (RAW + "h200-schedules.json", None, None, r"md:\d+: .*there is no raw data h200-schedules\.json"),
     (RAW + "h200-schedules.json", '"real_time"', '"time"', r"md:\d+: .*h200-schedules\.json.*has no 'real_time'"),
     (RAW + "h200-schedules.json", "local-bitonic", "bitonic", r"md:\d+: .*h200-schedules\.json.*no 'local-bitonic'"),
     (RAW + "h200-schedules.json", r"\A", "x", r"md:\d+: .*h200-schedules\.json.*JSONDecodeError"),

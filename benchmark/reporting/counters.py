@@ -97,6 +97,12 @@ def counter(path, shaders, run, schedule, what):
     return COLUMNS[what](read(path)[shaders, schedule, int(run)])
 
 
+def share(path, shaders, run, schedule, one, other):
+    """One counter as a share of another."""
+    cell = read(path)[shaders, schedule, int(run)]
+    return f"{100 * cell.total(one) / cell.total(other):.0f} %"
+
+
 def provenance(path):
     with open(path, encoding="utf-8") as file:
         context = json.load(file)["context"]

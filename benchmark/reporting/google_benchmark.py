@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads the reports that the C++ benchmarks write."""
+import functools
 import json
 import math
 import re
@@ -11,10 +12,12 @@ CONTEXT = ("date", "machine", "driver", "cuda_driver", "cuda_runtime", "nvcc", "
            "deferred_shade", "commit")
 
 
+@functools.cache  # many sentences ask the same file
 class Report:
     """`times`, {(path of names, n, run): µs}, medians of repetitions where there are several; `ranges`, of the
     same keys: least and most of the repetitions, or the tenths of the calls that a single one kept; `spreads`
-    of the cells with repetitions, what lies between their extremes over the median; `context` and `errors`."""
+    of the cells with repetitions, what lies between their extremes over the median; `repetitions`, how many of each
+    cell; `context` and `errors`."""
 
     def __init__(self, path):
         with open(path, encoding="utf-8") as file:
@@ -35,6 +38,7 @@ class Report:
             found[key].append(cell["real_time"] * MICROSECONDS[cell["time_unit"]])
             if "p10_us" in cell:
                 self.ranges[key] = cell["p10_us"], cell["p90_us"]
+        self.repetitions = {key: len(values) for key, values in found.items()}
         self.times = {key: statistics.median(values) for key, values in found.items()}
         several = {key: values for key, values in found.items() if len(values) > 1}
         self.ranges.update((key, (min(values), max(values))) for key, values in several.items())

@@ -8,9 +8,12 @@
     <!-- plot: PLOT FILE... OPTION=VALUE... -->
     ![what is to be seen](plot.svg)
 
-A report that stands in the middle of a line has no line breaks around it. Besides these and the examples that
+A report that stands in the middle of a line has no line breaks around it. A figure in a sentence that looks measured
+stands in one: prose.py finds others. Besides these and the examples that
 test/readme.py puts in, a page has no comments: what looks like one is a marker gone wrong.
 """
+import os
+import pathlib
 import re
 import shlex
 
@@ -31,10 +34,11 @@ def in_full(value):
 
 
 def parse(words, raw):
-    """The name of a view, its files, and its options."""
+    """The name of a view, its files, which a * may stand for, and its options."""
     name, *rest = shlex.split(words)
     options = {word.split("=", 1)[0]: in_full(word.split("=", 1)[1]) for word in rest if "=" in word}
-    files = [raw / word for word in rest if "=" not in word]
+    files = [file for word in rest if "=" not in word
+             for file in (sorted(raw.glob(word)) if "*" in word else []) or [raw / word]]
     missing = [file.name for file in files if not file.is_file()]
     if missing:
         raise Stale(f"{words}: there is no raw data {', '.join(missing)}")
@@ -84,7 +88,7 @@ class Pages:
         self.count += len(REPORT.findall(text)) + len(PLOT.findall(text))
         found = {page: REPORT.sub(lambda m: f"{m[1]}{m[3]}{made(m, m[2], self.views)}{m[3]}{m[5]}", text)}
         for match in PLOT.finditer(text):
-            found[page.parent / match[2]] = made(match, match[1], self.plots)
+            found[pathlib.Path(os.path.normpath(page.parent / match[2]))] = made(match, match[1], self.plots)
         return found
 
     def stale(self):

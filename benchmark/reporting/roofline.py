@@ -10,15 +10,12 @@ from .paper import SCENES, unsorted
 from .schedules import ORACLES, Cells
 from .svg import Drawing, LogScale, plain
 
-WIDTH, LEFT, RIGHT, TOP, BOTTOM = 440, 58, 424, 78, 416
-# What is shown of each of the paper's sets, and how.
-WAYS = {"oracle-launches": ("sorted beforehand", "s0", "disc"), "switch": ("as they come", "s1", "diamond"),
-        "window": ("in windows", "s2", "square")}
+WIDTH, LEFT, RIGHT, TOP, BOTTOM = 440, 62, 424, 128, 466
+# What is shown of each of the paper's sets, and how: a shape for each way, and a colour for each set.
+WAYS = {"oracle-launches": ("sorted beforehand", "disc"), "switch": ("as they come", "diamond"),
+        "window": ("in windows", "square")}
+LOOKS = {scene.name: f"s{k}" for k, scene in enumerate(SCENES)}
 RUN = 1
-# Where the names of points stand: from the requests as they come, by so much, and how they are anchored. The two
-# procedural sets lie on each other.
-NAMES = {"3 simple": ("3 simple", 9, 4, "start"), "6 simple": ("6 simple", 9, 4, "start"),
-         "11 moderate": ("11 moderate", -9, 4, "end"), "2 simple + 2 procedural": ("both procedural", 0, 20, "middle")}
 REQUEST = 32 + 16  # bytes that benchmark_schedules loads and stores for a request at least
 COPIED = 10  # and that benchmark_grouping's copy does
 
@@ -81,11 +78,14 @@ def plot(path, grouping):
     x = LogScale(0.015, 6, LEFT, RIGHT)
     y = LogScale(40e9, 1.6e12, BOTTOM, TOP)
     d = Drawing(WIDTH, BOTTOM + 54, "Instructions per second over instructions per byte on one NVIDIA H200")
-    d.text(8, 20, "NVIDIA H200, 8 Mi requests, ids at random", "strong")
-    d.text(8, 40, "index shaders, the paper's five sets", "soft")
-    for k, (words, look, shape) in enumerate(WAYS.values()):
-        d.mark(shape, 16 + 132 * k, 56, look, words)
-        d.text(25 + 132 * k, 60, words, "small")
+    d.text(8, 20, "NVIDIA H200, 8 Mi index requests, random ids", "strong")
+    for k, (words, shape) in enumerate(WAYS.values()):
+        d.mark(shape, 16 + 150 * k, 40, "s5")
+        d.text(26 + 150 * k, 45, words, "small")
+    for k, (name, look) in enumerate(LOOKS.items()):
+        column, row = (0, k) if k < 3 else (1, k - 3)
+        d.rect(11 + 215 * column, 57 + 20 * row, 11, 11, f"fill {look}")
+        d.text(28 + 215 * column, 67 + 20 * row, name, "small")
     for value in x.round_values():
         d.line([(x(value), TOP), (x(value), BOTTOM)], "grid")
         d.text(x(value), BOTTOM + 17, plain(value), "small soft", "middle")
@@ -98,10 +98,7 @@ def plot(path, grouping):
     d.text(x(x.high) - 4, y(issue) - 8, "issue of instructions", "small", "end")
     d.text(x(0.1) - 8, y(memory * 0.1), "memory", "small", "end")
     for (shaders, way), cell in chosen(path).items():
-        words, look, shape = WAYS[way]
+        words, shape = WAYS[way]
         here = x(cell.intensity()), y(cell.total("instructions") / cell.seconds())
-        d.mark(shape, *here, look, f"{shaders}, {words}")
-        if way == "switch" and shaders in NAMES:
-            name, right, down, anchor = NAMES[shaders]
-            d.text(here[0] + right, here[1] + down, name, "small", anchor)
+        d.mark(shape, *here, LOOKS[shaders], f"{shaders}, {words}")
     return d.render()

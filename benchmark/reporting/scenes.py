@@ -54,49 +54,83 @@ def efficiency(path):
     return table(["scene", "requests"] + [f"hit {k + 1}" for k in range(len(EFFICIENCY))], rows)
 
 
-def measured(path):
-    """The file, and milliseconds by (scene, schedule), run by run: of shading with grouping a sample of each pixel, and
-    of all of a picture."""
-    result, found, pictures = read(path), {}, {}
-    samples = result["reports"][0]["settings"]["spp"]
-    for report in result["reports"]:
-        for run in report["schedules"]:
-            key = report["scene"], run["schedule"]
-            found.setdefault(key, []).append(sum(b["total_ms"] for b in run["bounces"]) / samples)
-            pictures.setdefault(key, []).append(1e3 * run["seconds"] / samples)
-    return result, found, pictures
+class Timed:
+    """A file of benchmark/scenes.py: milliseconds of shading with grouping, of one sample of every pixel, run by run, by
+    (scene, schedule). All else in a picture's time, above all tracing, is the same work for every schedule: `rest` is its
+    median over the runs of all but the first schedule, which pays for the start-up of the program."""
+
+    def __init__(self, path):
+        self.result, self.shading, others = read(path), {}, {}
+        samples = self.result["reports"][0]["settings"]["spp"]
+        for report in self.result["reports"]:
+            for place, run in enumerate(report["schedules"]):
+                shading = sum(b["total_ms"] for b in run["bounces"]) / samples
+                self.shading.setdefault((report["scene"], run["schedule"]), []).append(shading)
+                if place > 0:
+                    others.setdefault(report["scene"], []).append(1e3 * run["seconds"] / samples - shading)
+        self.scenes, self.schedules = (list(dict.fromkeys(key[k] for key in self.shading)) for k in (0, 1))
+        self.rest = {scene: statistics.median(values) for scene, values in others.items()}
+
+    def middle(self, scene, schedule, what="shading"):
+        """The median of shading, or of a whole picture, of which the part that is not shading is `rest`."""
+        return statistics.median(self.shading[scene, schedule]) + {"shading": 0, "picture": self.rest[scene]}[what]
+
+    def share(self, scene, schedule):
+        return self.middle(scene, schedule) / self.middle(scene, schedule, "picture")
+
+    def fastest(self, scene, names):
+        return min(names, key=lambda name: self.middle(scene, name))
+
+    def apart(self, scene, one, other):
+        """Whether the runs of two schedules do not overlap."""
+        one, other = self.shading[scene, one], self.shading[scene, other]
+        return max(one) < min(other) or max(other) < min(one)
+
+    def gain(self, scene, names, what="shading"):
+        """How many times as fast as unsorted implicit serialisation the fastest of some schedules is."""
+        return self.middle(scene, "implicit", what) / self.middle(scene, self.fastest(scene, names), what)
 
 
 def speedups(path, names):
     """{scene: how many times as fast as unsorted implicit serialisation the best of some schedules shades it, and
     whether the runs of the two lie apart}"""
-    _, found, _ = measured(path)
-    result = {}
-    for scene in dict.fromkeys(scene for scene, _ in found):
-        best = min((found[scene, name] for name in names), key=statistics.median)
-        unsorted = found[scene, "implicit"]
-        result[scene] = (statistics.median(unsorted) / statistics.median(best),
-                         max(best) < min(unsorted) or max(unsorted) < min(best))
-    return result
+    timed = Timed(path)
+    return {s: (timed.gain(s, names), timed.apart(s, "implicit", timed.fastest(s, names))) for s in timed.scenes}
+
+
+def gains(*paths, heads):
+    """What the fastest schedule gains in each scene on some machines: of shading, and of the whole picture."""
+    machines, rows = [Timed(path) for path in paths], []
+    for scene in machines[0].scenes:
+        row = [scene]
+        for timed in machines:
+            sure = timed.apart(scene, "implicit", timed.fastest(scene, timed.schedules))
+            row += [f"{timed.gain(scene, timed.schedules, what):.2f}" if sure else "within the spread"
+                    for what in ("shading", "picture")]
+        rows.append(row)
+    return table(["shaders of the scene"] + [f"{head}: {what}" for head in heads.split(",")
+                                             for what in ("shading", "whole picture")], rows)
 
 
 def times(path):
     """Every schedule, medians; and what the best gains over unsorted implicit serialisation."""
-    result, found, pictures = measured(path)
-    middle = {key: statistics.median(values) for key, values in found.items()}
-    spread = {key: (max(values) - min(values)) / middle[key] for key, values in found.items()}
-    scenes, names = (list(dict.fromkeys(key[k] for key in found)) for k in (0, 1))
-    rows = [[f"`{name}`"] + [f"{in_words(middle[s, name])} ± {50 * spread[s, name]:.0f} %" for s in scenes]
-            for name in names]
+    timed = Timed(path)
+    scenes, names = timed.scenes, timed.schedules
+
+    def cell(scene, name):
+        runs, middle = timed.shading[scene, name], timed.middle(scene, name)
+        return f"{in_words(middle)} ± {50 * (max(runs) - min(runs)) / middle:.0f} %"
+    rows = [[f"`{name}`"] + [cell(s, name) for s in scenes] for name in names]
     for words, of in (("", names), ("the paper's ", [name for name in names if name in SCHEDULES])):
-        best = [min(of, key=lambda name, s=s: middle[s, name]) for s in scenes]
-        rows.append([f"*{words}fastest*"] + [f"`{name}`" for name in best])
-        rows.append(["*as fast as `implicit`*"] + [f"{middle[s, 'implicit'] / middle[s, name]:.2f} times"
-                                                   for s, name in zip(scenes, best)])
-    rows.append(["*that in the paper*"] + [scene.words() for scene in SCENES])
-    rows.append(["*of the picture's time*"] + [
-        f"{100 * middle[s, 'implicit'] / statistics.median(pictures[s, 'implicit']):.0f} %" for s in scenes])
-    settings, runs = result["reports"][0]["settings"], len(next(iter(found.values())))
+        rows.append([f"*{words}fastest*"] + [f"`{timed.fastest(s, of)}`" for s in scenes])
+        for what, of_what in (("shading", "shading"), ("picture", "the picture")):
+            rows.append([f"*speedup of {of_what}*"] +
+                        [f"{timed.gain(s, of, what):.2f}" for s in scenes])
+    rows.append(["*in the paper*"] + [scene.words() for scene in SCENES])
+    rows.append(["*the rest of a picture, ms*"] + [in_words(timed.rest[s]) for s in scenes])
+    rows.append(["*share of shading, by `implicit`*"] + [f"{100 * timed.share(s, 'implicit'):.0f} %" for s in scenes])
+    settings, runs = timed.result["reports"][0]["settings"], len(timed.shading[scenes[0], "implicit"])
+    result = timed.result
     return "\n\n".join([
         ", ".join([result["machine"], f"commit {result['commit']}", f"{settings['width']} x {settings['height']}"] +
                   [f"{key} {settings[key]}" for key in ("backend", "spp", "max_depth")] + [f"{runs} runs"]),

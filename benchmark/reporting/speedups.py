@@ -9,7 +9,7 @@ from .schedules import Cells
 from .svg import Drawing, LogScale, plain
 
 WIDTH, LEFT, RIGHT = 440, 138, 426
-TOP, ROW, TITLE, GAP = 96, 14, 21, 9
+TOP, ROW, TITLE, GAP = 116, 14, 21, 9
 
 
 def plot(path, n, kind="index", runs="1,32"):
@@ -40,6 +40,8 @@ def plot(path, n, kind="index", runs="1,32"):
         d.text(26 + 205 * k, 61, words)
     d.rect(8, 70, 16, 12, "band")
     d.text(29, 80, "what the paper measured, scene by scene")
+    d.line([(8, 96), (24, 96)], "thin s5")
+    d.text(29, 100, "spread of the measurements")
 
     for value in x.doublings():
         d.line([(x(value), TOP), (x(value), bottom)], "axis" if value == 1 else "grid")

@@ -8,7 +8,8 @@ import effects
 import ratios
 import registers
 
-from . import claims, compiling, counters, hits, matrix, means, roofline, scaling, scenes, several, speedups, summary
+from . import claims, compiling, counters, hits, matrix, means, roofline, scaling, scenes, sentences, several, speedups
+from . import summary
 from .google_benchmark import Report
 
 
@@ -39,6 +40,17 @@ VIEWS = {
     "matrix": matrix.matrix,
     "summary": summary.summary,
     "speedup": summary.speedup,
+    "gain": sentences.gain,
+    "best-in": sentences.best_in,
+    "microseconds": sentences.microseconds,
+    "repeated": sentences.repeated,
+    "counter-share": counters.share,
+    "scene-gain": sentences.scene_gain,
+    "scene-share": sentences.scene_share,
+    "hit-efficiency": sentences.hit_efficiency,
+    "accuracy-of": sentences.accuracy,
+    "equal-error": sentences.equal_error,
+    "gains": scenes.gains,
     "means": means.means,
     "span": means.span,
     "apart": means.apart,
