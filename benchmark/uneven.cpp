@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Six shaders of which one has 95 of 100 requests, on a GPU: all schedules and controls, as in
-// schedules.cpp, and
-//   fixed-shares   bucket+explicit whose blocks have fixed shares of a segment
-// Shaders are moderate or procedural.
+// Six shaders, moderate or procedural, of which one has 95 of 100 requests, on a GPU: all schedules
+// and controls, as in schedules.cpp.
 #include <algorithm>
 #include <memory>
 
@@ -11,28 +9,10 @@
 
 namespace {
 
-namespace ds = deferred_shade;
-
-template <class Set>
-void fixed_shares(bench::view const& v) {
-  auto const exec = bench::policy();
-  auto const n = static_cast<ds::request_index>(v.n);
-  ds::grouping group = ds::group_by_bucket<Set::size>(exec, n, v.ids, bench::scratch());
-  group.progress = nullptr;
-  ds::explicit_serialization{}(exec, group, Set::index(v.requests, v.results), bench::scratch());
-}
-
 struct named_list {
   std::string name;
   bench::row_list list;
 };
-
-template <class Set>
-named_list rows(char const* name) {
-  named_list result{name, bench::rows_of<Set>()};
-  result.list.rows.push_back({"index", "fixed-shares", false, fixed_shares<Set>});
-  return result;
-}
 
 void add_cells(named_list const& set, std::size_t n, std::string& current_name,
                std::shared_ptr<bench::batch>& current) {
@@ -61,8 +41,8 @@ void add_cells(named_list const& set, std::size_t n, std::string& current_name,
 }  // namespace
 
 int main(int argc, char** argv) {
-  named_list const sets[] = {rows<bench::shader_set<0, 6, 0>>("6 moderate"),
-                             rows<bench::shader_set<0, 0, 6>>("6 procedural")};
+  named_list const sets[] = {{"6 moderate", bench::rows_of<bench::shader_set<0, 6, 0>>()},
+                             {"6 procedural", bench::rows_of<bench::shader_set<0, 0, 6>>()}};
   std::string current_name;
   std::shared_ptr<bench::batch> current;
   return bench::run(argc, argv, [&](bool quick) {
