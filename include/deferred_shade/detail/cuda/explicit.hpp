@@ -31,7 +31,7 @@ __global__ void masked_kernel(bool first, Count n, Ids ids, Shader const __grid_
 
 /// Runs one shader on its segment. The host does not know its length: the threads of the grid
 /// stride over the segment until its end. (Blocks that take the next stretch by a counter are not
-/// faster: docs/design.md, "What did not pay".)
+/// faster: docs/results/h200-own-kernels.md.)
 template <class Shader>
 __global__ void segment_kernel(bool first, request_index const* permutation,
                                request_index const* offset, Shader const __grid_constant__ shader) {
