@@ -86,7 +86,7 @@ def check(file, header, command):
 def without_file():
     """The messages of static_asserts and #errors of the library that no file expects."""
     expected = [expected_of(f.read_text())
-                for f in sorted((HERE / "compile_fail").iterdir()) if f.suffix in (".cpp", ".cu")]
+                for f in sorted((HERE / "compile_fail").rglob("*")) if f.suffix in (".cpp", ".cu")]
     missing = []
     for header in sorted((HERE.parent / "include").rglob("*.hpp")):
         text = header.read_text()

@@ -19,8 +19,8 @@ struct other_on_cpu : ds::tuning {
     static constexpr ds::request_index long_stretch = 3;
     static constexpr bool compares_keys(ds::shader_id, std::size_t) { return false; }
     static constexpr ds::request_index counted_parts(ds::shader_id) { return 3; }
-    static constexpr ds::detail::cache ahead_of_places(ds::shader_id) {
-      return ds::detail::cache::none;
+    static constexpr ds::cache_level ahead_of_places(ds::shader_id) {
+      return ds::cache_level::none;
     }
   };
 };

@@ -23,7 +23,7 @@ template <std::uint32_t Shaders, ds::request_index Parts>
 using counts_of =
     ds::detail::key_counts<Shaders, Parts, ds::detail::compared_bytes<Shaders, ds::cpu_tuning>>;
 
-template <std::uint32_t Shaders, ds::detail::cache Ahead, class Number>
+template <std::uint32_t Shaders, ds::cache_level Ahead, class Number>
 void check_places(std::vector<ds::detail::sort_key<Shaders>> const& keys, Number first) {
   std::vector<std::vector<Number>> of_key(Shaders + 1);
   for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -79,9 +79,9 @@ void check_table() {
         right &= at_once.of(k) == std::count(keys.begin(), keys.end(), k);
       }
       REQUIRE(right);
-      check_places<Shaders, ds::detail::cache::none>(keys, std::uint16_t{0});
-      check_places<Shaders, ds::detail::cache::first_level>(keys, std::uint32_t{4000000000});
-      check_places<Shaders, ds::detail::cache::second_level>(keys, std::uint32_t{0});
+      check_places<Shaders, ds::cache_level::none>(keys, std::uint16_t{0});
+      check_places<Shaders, ds::cache_level::first_level>(keys, std::uint32_t{4000000000});
+      check_places<Shaders, ds::cache_level::second_level>(keys, std::uint32_t{0});
     }
   }
 }

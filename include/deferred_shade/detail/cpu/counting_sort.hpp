@@ -183,7 +183,7 @@ request_index quarters_same(Key const* keys, request_index size) {
 /// Puts one number to the place of its key. Prefetches ahead of it into the cache `Ahead`: hardware
 /// prefetches too late, or not at all if there are many places. `none` is for places that are near
 /// each other.
-template <cache Ahead, class Number>
+template <cache_level Ahead, class Number>
 void place_one(std::size_t key, Number number, std::uint32_t* next, Number* places) {
   std::uint32_t const place = next[key]++;
   places[place] = number;
@@ -191,12 +191,12 @@ void place_one(std::size_t key, Number number, std::uint32_t* next, Number* plac
 }
 
 /// Does what key_counts::place does, but one key after the other and without counts of the keys.
-template <cache Ahead, class Key, class Number>
+template <cache_level Ahead, class Key, class Number>
 void place_each(Key const* keys, request_index size, Number first, std::uint32_t* next,
                 Number* places) {
   request_index i = 0;
 #if DEFERRED_SHADE_HAS_GNU && __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
-  if constexpr (Ahead == cache::second_level) {  // saves loads: one for eight bytes of keys
+  if constexpr (Ahead == cache_level::second_level) {  // saves loads: one for eight bytes of keys
     for (std::uint64_t word; size - i >= sizeof word / sizeof(Key);) {
       std::memcpy(&word, keys + i, sizeof word);
       for (std::size_t bit = 0; bit < 64; bit += 8 * sizeof(Key), ++i) {
@@ -212,7 +212,7 @@ void place_each(Key const* keys, request_index size, Number first, std::uint32_t
 
 /// As place_each, but key_step equal keys take one access to `next`; one by one, each would wait
 /// for the one before.
-template <cache Ahead, class Key, class Number>
+template <cache_level Ahead, class Key, class Number>
 void place_by_keys(Key const* keys, request_index size, Number first, std::uint32_t* next,
                    Number* places) {
   request_index i = 0;

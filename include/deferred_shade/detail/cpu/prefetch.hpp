@@ -13,10 +13,10 @@ namespace deferred_shade::detail {
 /// Prefetches the cache line of pointer[i], to be read or written. Does nothing if `pointer` is not
 /// a pointer. The address need not be valid. Always a read prefetch: write prefetches cannot target
 /// the second-level cache.
-template <cache To, class Pointer>
+template <cache_level To, class Pointer>
 void prefetch([[maybe_unused]] Pointer const& pointer, [[maybe_unused]] request_index i) noexcept {
 #if DEFERRED_SHADE_HAS_GNU
-  if constexpr (To != cache::none && std::is_pointer_v<Pointer> &&
+  if constexpr (To != cache_level::none && std::is_pointer_v<Pointer> &&
                 std::is_object_v<std::remove_pointer_t<Pointer>>) {
     auto const address = reinterpret_cast<std::uintptr_t>(pointer) + sizeof(*pointer) * i;
     __builtin_prefetch(reinterpret_cast<void const*>(address), 0, static_cast<int>(To));

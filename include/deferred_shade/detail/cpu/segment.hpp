@@ -46,8 +46,8 @@ inline constexpr std::size_t packed_lanes = (std::min)(most_packed,
 template <class Shader>
 void prefetch_records(Shader const& shader, request_index i) noexcept {
   if constexpr (is_record_shader<Shader>) {
-    detail::prefetch<cache::second_level>(shader.source, i);
-    detail::prefetch<cache::second_level>(shader.sink, i);
+    detail::prefetch<cache_level::second_level>(shader.source, i);
+    detail::prefetch<cache_level::second_level>(shader.sink, i);
   }
 }
 

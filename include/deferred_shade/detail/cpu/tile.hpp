@@ -51,7 +51,7 @@ DEFERRED_SHADE_NOINLINE void counting_sort(Ids const& ids, request_index first, 
   result.offsets[0] = next[0] = 0;
   for (shader_id k = 0; k < Shaders; ++k) next[k + 1] = next[k] + counts.of(k);
   if (detail::quarters_same(keys, size) >= 3) {
-    detail::place_by_keys<cache::none>(keys, size, std::uint16_t{0}, next, result.order);
+    detail::place_by_keys<cache_level::none>(keys, size, std::uint16_t{0}, next, result.order);
   } else {
     counts.place(keys, size, std::uint16_t{0}, next, result.order);
   }

@@ -13,10 +13,11 @@
 // CPU"; docs/results/cpu.md).
 
 namespace deferred_shade {
-namespace detail {
 
 /// The cache of a core to prefetch into, by the numbers of __builtin_prefetch.
-enum class cache { none, second_level = 2, first_level = 3 };
+enum class cache_level { none, second_level = 2, first_level = 3 };
+
+namespace detail {
 
 // Blocks. A worker owns one at a time.
 /// Requests in a block, at least: a parallel loop over blocks then costs little beside their work.
@@ -103,8 +104,8 @@ struct cpu_tuning {
 
   /// The cache into which the places of buckets are prefetched. The first-level cache has room for
   /// 64 shaders (11 shaders: 0.83 ns a request instead of 1.10 ns). It overflows with 255.
-  static constexpr detail::cache ahead_of_places(shader_id shaders) {
-    return shaders <= 64 ? detail::cache::first_level : detail::cache::second_level;
+  static constexpr cache_level ahead_of_places(shader_id shaders) {
+    return shaders <= 64 ? cache_level::first_level : cache_level::second_level;
   }
 };
 

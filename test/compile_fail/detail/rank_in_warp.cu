@@ -2,7 +2,7 @@
 // More shaders than a warp has lanes.
 // errors: 1
 // error: each shader must have a lane of a warp to look after it
-#include "cuda.hpp"
+#include "../cuda.hpp"
 
 #ifdef RIGHT
 constexpr ds::shader_id shaders = 32;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A network that is none.
 // error: a bitonic network must have a power of two of keys
-#include "program.hpp"
+#include "../program.hpp"
 
 #ifdef RIGHT
 constexpr int size = 4;

@@ -2,7 +2,7 @@
 // Bits of another size.
 // errors: 2
 // error: bits must be taken as a type of the same size
-#include "program.hpp"
+#include "../program.hpp"
 
 #include <deferred_shade/detail/bits.hpp>
 

@@ -2,7 +2,7 @@
 // A table whose ids have more than four bits.
 // errors: 1
 // error: an id must fit in four bits
-#include "cuda.hpp"
+#include "../cuda.hpp"
 
 #ifdef RIGHT
 using counts = ds::detail::thread_counts<15>;

@@ -2,7 +2,7 @@
 // A tile with more positions than 16 bits have.
 // errors: 1
 // error: a position in a tile must fit in 16 bits
-#include "cuda.hpp"
+#include "../cuda.hpp"
 
 #ifdef RIGHT
 using sort = ds::detail::tile_sort<3, 512, 8>;
