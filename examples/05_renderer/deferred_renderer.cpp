@@ -22,7 +22,6 @@ namespace {
 
 constexpr std::uint32_t width = 320, height = 240, size = width * height, samples = 8;
 constexpr std::uint32_t longest = 1000;  // path, in steps
-constexpr auto ended = static_cast<material>(255);
 
 struct hit {
   vec point, normal;  // the normal points out of the object

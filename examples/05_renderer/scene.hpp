@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "vec.hpp"
 
 enum material : std::uint8_t { matte, checker, mirror, glass, lamp };
+constexpr auto ended = static_cast<material>(255);  // no material: the path has ended
 
 struct ray {
   vec origin, direction;
@@ -25,28 +24,29 @@ struct object {
   vec dark{1, 1, 1};  // every other square of a checker
 };
 
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
 /// How far along a ray an object is hit; infinity if it is not.
-inline float distance(object const& o, ray const& r) {
-  constexpr float none = std::numeric_limits<float>::infinity();
+HD inline float distance(object const& o, ray const& r) {
   if (o.radius == 0) {
-    float const t = r.direction.y < 0 ? r.origin.y / -r.direction.y : none;
-    return t > 0 ? t : none;
+    float const t = r.direction.y < 0 ? r.origin.y / -r.direction.y : infinity;
+    return t > 0 ? t : infinity;
   }
   vec const to_centre = o.centre - r.origin;
   float const middle = dot(to_centre, r.direction);
   vec const beside = to_centre - middle * r.direction;
   float const square = o.radius * o.radius - dot(beside, beside);
-  if (square < 0) return none;
+  if (square < 0) return infinity;
   float const half = std::sqrt(square);
-  return middle - half > 0 ? middle - half : middle + half > 0 ? middle + half : none;
+  return middle - half > 0 ? middle - half : middle + half > 0 ? middle + half : infinity;
 }
 
 /// Balls just above a floor, under a lamp. They do not touch: rays start a little off a surface,
 /// and would get inside a touching ball. The first object is the sky, a ball around all paths:
 /// every ray hits something. In the furnace, surfaces are white and all light has radiance 1: the
-/// picture has radiance 1.
+/// picture has radiance 1. A kernel may get a scene by value.
 struct scene {
-  std::vector<object> objects{
+  object objects[6]{
       {lamp, {0.25F, 0.375F, 0.5F}, {0, 0, 0}, 1000},
       {checker, {0.8F, 0.8F, 0.75F}, {0, 0, 0}, 0, {0.2F, 0.1F, 0.1F}},
       {lamp, {16, 14, 10}, {-1.5F, 4.2F, 1}, 0.7F},
@@ -60,13 +60,14 @@ struct scene {
   }
 
   /// The object that a ray hits first. Sets `t` to the distance along the ray.
-  object const& first_hit(ray const& r, float& t) const {
+  HD object const& first_hit(ray const& r, float& t) const {
     std::size_t first = 0;
-    t = std::numeric_limits<float>::infinity();
-    for (std::size_t k = 0; k < objects.size(); ++k) {
+    t = infinity;
+    for (std::size_t k = 0; k < sizeof(objects) / sizeof(object); ++k) {
       float const d = distance(objects[k], r);
-      if (d < t) first = k;
-      t = std::min(t, d);
+      if (!(d < t)) continue;
+      first = k;
+      t = d;
     }
     return objects[first];
   }
