@@ -59,8 +59,9 @@ namespace {
 
 namespace ds = deferred_shade;
 
-template <class Backend, class Source>
-void check(Source source, std::vector<render::hit> const& hits) {
+/// By these schedules, or by every one.
+template <class Backend, class Source, class... Schedules>
+void check(Source source, std::vector<render::hit> const& hits, Schedules const&... schedules) {
   auto const n = static_cast<std::uint32_t>(hits.size());
   auto const data = test::make_ids<std::uint8_t>(test::layout::random, n, 3, test::run_seed());
   std::vector<render::material> names;
@@ -75,7 +76,7 @@ void check(Source source, std::vector<render::hit> const& hits) {
   }
   auto const exec = Backend::policy();
   ds::workspace scratch{exec};
-  test::for_each_schedule([&](auto schedule) {
+  auto const shade = [&](auto schedule) {
     auto results = test::on<Backend>(std::vector<render::light>(n, render::light{-1}));
     ds::shade(exec, schedule, n, first,
               ds::record_shaders(source, results.data(), render::scaled<1>{}, render::scaled<2>{},
@@ -85,7 +86,12 @@ void check(Source source, std::vector<render::hit> const& hits) {
     std::vector<float> values;
     for (std::uint32_t i = 0; i < n; ++i) values.push_back(results[i].value);
     CHECK(test::first_difference(values, expected) == n);
-  });
+  };
+  if constexpr (sizeof...(Schedules) == 0) {
+    test::for_each_schedule(shade);
+  } else {
+    (shade(schedules), ...);
+  }
 }
 
 }  // namespace
@@ -100,5 +106,7 @@ TEMPLATE_LIST_TEST_CASE("functions of a renderer's namespace are not taken for t
   auto const there = test::on<TestType>(hits);
   render::hit const* const first = there.data();
   check<TestType>(first, hits);
-  check<TestType>(render::all_hits{first}, hits);
+  check<TestType>(render::all_hits{first}, hits, ds::bucket_then_dispatch<>{},
+                  ds::compact_then_dispatch<ds::implicit_serialization>{},
+                  ds::local_sort_then_dispatch<>{});
 }

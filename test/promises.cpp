@@ -12,6 +12,7 @@
 #include "catch.hpp"
 #include "support/backends.hpp"
 #include "support/random_ids.hpp"
+#include "support/schedule_properties.hpp"
 #include "support/stack.hpp"
 #ifdef DEFERRED_SHADE_TEST_TBB
 #include <tbb/enumerable_thread_specific.h>
@@ -29,9 +30,13 @@ struct adding_shader {
   std::uint32_t* sums;
   void operator()(ds::request_index i) const { sums[i] += 7 * i + id; }
 };
-template <std::uint32_t... Ids>
-auto adding_table(std::uint32_t* sums, std::integer_sequence<std::uint32_t, Ids...>) {
-  return ds::shader_table{adding_shader{Ids + 1, sums}...};
+template <std::uint32_t Shaders, std::uint32_t... Kept>
+auto adding_table(std::uint32_t* sums) {
+  return test::table_of<Kept...>(
+      [sums](std::uint32_t id) {
+        return adding_shader{id + 1, sums};
+      },
+      std::make_integer_sequence<std::uint32_t, Shaders>());
 }
 
 }  // namespace
@@ -91,15 +96,14 @@ TEMPLATE_LIST_TEST_CASE("what fits one worker runs on the thread that called", "
 }
 
 #ifndef DEFERRED_SHADE_TEST_SANITIZED
-template <std::uint32_t Shaders, class Schedule>
+template <std::uint32_t Shaders, std::uint32_t... Kept, class Schedule>
 void check_stack(Schedule const& schedule) {
   std::uint32_t const n = 70001;
   auto const ids =
       test::make_ids<std::uint16_t>(test::layout::random, n, Shaders, test::run_seed());
   CAPTURE(test::run_seed(), Shaders);
   std::vector<std::uint32_t> sums(n);
-  auto const shaders =
-      adding_table(sums.data(), std::make_integer_sequence<std::uint32_t, Shaders>());
+  auto const shaders = adding_table<Shaders, Kept...>(sums.data());
   ds::workspace scratch{thrust::cpp::par};
   std::size_t const bytes = test::stack_bytes(
       [&] { ds::shade(thrust::cpp::par, schedule, n, ids.data(), shaders, scratch); });
@@ -111,11 +115,21 @@ TEST_CASE("no schedule takes more than 64 KiB of stack", "[promises]") {
     CAPTURE(name);
     check_stack<5>(schedule);
   });
-  // The largest tables of each way in which a tile is sorted.
-  check_stack<255>(ds::local_sort_then_dispatch<>{});
-  check_stack<511>(ds::local_sort_then_dispatch<>{});
-  check_stack<1023>(ds::local_sort_then_dispatch<>{});
-  check_stack<1024>(ds::local_sort_then_dispatch<>{});
+  // Code for many shaders, and the largest tables of each way in which a tile is sorted: by keys of
+  // one byte, by keys of two, with counters once instead of in parts, and by the network, whose
+  // stack does not depend on the table.
+  check_stack<64>(ds::local_sort_then_dispatch<>{});
+  check_stack<255, 0, 100, 254>(ds::local_sort_then_dispatch<>{});
+  check_stack<511, 0, 300, 510>(ds::local_sort_then_dispatch<>{});
+  constexpr std::uint32_t tile = ds::cpu_tuning::tile;
+  auto const ids =
+      test::make_ids<std::uint16_t>(test::layout::random, tile, 1023, test::run_seed());
+  CHECK(test::stack_bytes([&] {
+          ds::detail::sorted_tile<1023, tile> sorted;
+          ds::detail::counting_sort<ds::cpu_tuning>(ids.data(), 0, tile, sorted);
+        }) < 60 * 1024);
+  STATIC_REQUIRE(ds::cpu_tuning::counts_tiles(1023));
+  STATIC_REQUIRE(!ds::cpu_tuning::counts_tiles(1024));
 }
 
 TEST_CASE("groupings over many ids take little stack", "[promises]") {
@@ -151,8 +165,7 @@ TEST_CASE("a TBB thread that waits in shade takes no other task of the renderer'
         auto const ids = test::make_ids<std::uint8_t>(test::layout::random, n, 7,
                                                       static_cast<std::uint32_t>(task));
         std::vector<std::uint32_t> sums(n);
-        auto const shaders =
-            adding_table(sums.data(), std::make_integer_sequence<std::uint32_t, 5>());
+        auto const shaders = adding_table<5>(sums.data());
         ds::shade(thrust::tbb::par, ds::bucket_then_dispatch<>{}, n, ids.data(), shaders,
                   scratch.local());
         for (std::uint32_t i = 0; i < n; ++i) {

@@ -48,38 +48,57 @@ struct fixed_on_gpu : ds::tuning {
   };
 };
 
-template <class Backend, class Tuning, std::uint32_t Shaders>
-void check_tuning() {
+template <class Backend, class Tuning, std::uint32_t Shaders, class Schedule>
+void check_schedule(Schedule const& schedule) {
   ds::workspace scratch{Backend::policy()};
   ds::tuned tuned{scratch, Tuning{}};
   for (std::uint32_t const n : {1U, 1000U, 20011U}) {
     for (test::layout const how : test::layouts) {
       std::uint32_t const seed = test::run_seed() + n;
+      CAPTURE(n, static_cast<int>(how), seed, Shaders);
       auto const ids = test::on<Backend>(test::make_ids<std::uint8_t>(how, n, Shaders, seed));
-      ds::for_each_schedule([&](char const* name, auto const& schedule) {
-        CAPTURE(name, n, static_cast<int>(how), seed, Shaders);
-        test::check_against_loop<Backend, Shaders>(schedule, n, ids.data(), tuned);
-      });
+      test::check_against_loop<Backend, Shaders>(schedule, n, ids.data(), tuned);
     }
   }
+}
+template <class Backend, class Tuning, std::uint32_t Shaders>
+void check_every_schedule() {
+  ds::for_each_schedule([](char const* name, auto const& schedule) {
+    CAPTURE(name);
+    check_schedule<Backend, Tuning, Shaders>(schedule);
+  });
+}
+/// One schedule for each choice that a tuning has: of buckets, tiles and windows.
+template <class Backend, class Tuning, std::uint32_t Shaders>
+void check_each_choice() {
+  check_schedule<Backend, Tuning, Shaders>(ds::bucket_then_dispatch<>{});
+  check_schedule<Backend, Tuning, Shaders>(ds::local_sort_then_dispatch<>{});
+  check_schedule<Backend, Tuning, Shaders>(ds::window_sort_then_dispatch{});
 }
 
 }  // namespace test_tuning
 
 using namespace test_tuning;
 
-TEMPLATE_LIST_TEST_CASE("a renderer's tuning changes no result", "[tuning]", test::backends) {
-  check_tuning<TestType, other_on_cpu, 5>();
-  check_tuning<TestType, other_on_cpu, 40>();
-  check_tuning<TestType, counts_in_place, 5>();
+TEMPLATE_LIST_TEST_CASE("a renderer's tuning for CPUs changes no result", "[tuning]",
+                        test::host_backends) {
+  check_every_schedule<TestType, other_on_cpu, 5>();
+  check_each_choice<TestType, other_on_cpu, 40>();
+  check_each_choice<TestType, counts_in_place, 5>();
+}
+
+#ifdef DEFERRED_SHADE_TEST_CUDA
+TEST_CASE("a renderer's tuning for GPUs changes no result", "[tuning]") {
   using ds::bucket_algorithm;
   using ds::tile_algorithm;
-  check_tuning<TestType, fixed_on_gpu<bucket_algorithm::counters, tile_algorithm::rows, false>,
-               5>();
-  check_tuning<TestType, fixed_on_gpu<bucket_algorithm::radix_sort, tile_algorithm::bitonic, false>,
-               5>();
-  check_tuning<TestType, fixed_on_gpu<bucket_algorithm::lanes, tile_algorithm::dense, true>, 20>();
+  check_every_schedule<test::cuda,
+                       fixed_on_gpu<bucket_algorithm::counters, tile_algorithm::rows, false>, 5>();
+  check_each_choice<
+      test::cuda, fixed_on_gpu<bucket_algorithm::radix_sort, tile_algorithm::bitonic, false>, 5>();
+  check_each_choice<test::cuda, fixed_on_gpu<bucket_algorithm::lanes, tile_algorithm::dense, true>,
+                    20>();
 }
+#endif
 
 TEST_CASE("a tuning goes through observers", "[tuning]") {
   ds::workspace scratch{thrust::cpp::par};

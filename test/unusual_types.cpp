@@ -52,9 +52,6 @@ struct mask {
     return &other;
   }
 };
-struct next_mask {
-  mask operator()(mask const& m) const { return {m.bits + 1}; }
-};
 
 /// Runs `table` by every schedule; `out` must then
 /// be i + 1 for each request that names a shader, and untouched elsewhere.
@@ -82,67 +79,45 @@ void check_every_schedule(Table const& table, std::vector<Value>& out, Value unt
 
 using namespace test_unusual;
 
-TEMPLATE_LIST_TEST_CASE("a shader's result may be one that must not be dropped", "[types]",
-                        test::host_backends) {
+// A table holds shaders of several of these types, for a schedule takes a compiler as long whatever
+// they are.
+TEMPLATE_LIST_TEST_CASE(
+    "shaders may return what must not be dropped, be move-only, and of a function's own type",
+    "[types]", test::host_backends) {
+  struct local_shader {
+    std::uint32_t* out;
+    void operator()(ds::request_index i) const { out[i] = i + 1; }
+  };
   std::vector<std::uint32_t> out(several_tiles);
-  check_every_schedule<TestType>(ds::shader_table{with_result{out.data()}, with_result{out.data()}},
-                                 out, 77U);
+  check_every_schedule<TestType>(
+      ds::shader_table{with_result{out.data()}, local_shader{out.data()},
+                       move_only{std::make_unique<std::uint32_t>(1U), out.data()}},
+      out, 77U);
 }
 
-TEMPLATE_LIST_TEST_CASE("a sink's result may be one that must not be dropped", "[types]",
-                        test::host_backends) {
+TEMPLATE_LIST_TEST_CASE(
+    "a sink may return what must not be dropped, of functions that are move-only", "[types]",
+    test::host_backends) {
   std::vector<std::uint32_t> in(several_tiles);
   std::vector<std::uint32_t> out(several_tiles);
   for (std::uint32_t i = 0; i < several_tiles; ++i) in[i] = i;
   auto const next = [](std::uint32_t request) { return request + 1; };
   check_every_schedule<TestType>(
-      ds::record_shaders(in.data(), checked_sink{out.data()}, next, next), out, 77U);
-}
-
-TEMPLATE_LIST_TEST_CASE("shaders may be movable and not copyable", "[types]", test::host_backends) {
-  std::vector<std::uint32_t> out(several_tiles);
-  check_every_schedule<TestType>(
-      ds::shader_table{move_only{std::make_unique<std::uint32_t>(1U), out.data()},
-                       move_only{std::make_unique<std::uint32_t>(1U), out.data()}},
-      out, 77U);
-
-  std::vector<std::uint32_t> in(several_tiles);
-  for (std::uint32_t i = 0; i < several_tiles; ++i) in[i] = i;
-  check_every_schedule<TestType>(
-      ds::record_shaders(in.data(), out.data(),
-                         move_only_function{std::make_unique<std::uint32_t>(1U)},
+      ds::record_shaders(in.data(), checked_sink{out.data()}, next,
                          move_only_function{std::make_unique<std::uint32_t>(1U)}),
       out, 77U);
 }
 
-TEMPLATE_LIST_TEST_CASE("shaders and records may be of types local to a function", "[types]",
+TEMPLATE_LIST_TEST_CASE("a record may be of a function's own type and overload unary &", "[types]",
                         test::host_backends) {
-  struct local_record {
-    std::uint32_t word;
-  };
+  struct local_record : mask {};
   struct local_function {
-    local_record operator()(local_record r) const { return {r.word + 1}; }
+    local_record operator()(local_record const& r) const { return {{r.bits + 1}}; }
   };
-  struct local_shader {
-    std::uint32_t* out;
-    void operator()(ds::request_index i) const { out[i] = i + 1; }
-  };
-  std::vector<std::uint32_t> words(several_tiles);
-  check_every_schedule<TestType>(
-      ds::shader_table{local_shader{words.data()}, local_shader{words.data()}}, words, 77U);
-
   std::vector<local_record> in(several_tiles);
   std::vector<local_record> out(several_tiles);
-  for (std::uint32_t i = 0; i < several_tiles; ++i) in[i] = {i};
+  for (std::uint32_t i = 0; i < several_tiles; ++i) in[i] = {{i}};
   check_every_schedule<TestType>(
       ds::record_shaders(in.data(), out.data(), local_function{}, local_function{}), out,
-      local_record{77U});
-}
-
-TEMPLATE_LIST_TEST_CASE("a record may overload unary &", "[types]", test::host_backends) {
-  std::vector<mask> in(several_tiles);
-  std::vector<mask> out(several_tiles);
-  for (std::uint32_t i = 0; i < several_tiles; ++i) in[i] = {i};
-  check_every_schedule<TestType>(
-      ds::record_shaders(in.data(), out.data(), next_mask{}, next_mask{}), out, mask{77U});
+      local_record{{77U}});
 }

@@ -180,19 +180,26 @@ TEMPLATE_LIST_TEST_CASE("reserve is enough for every schedule", "[workspace]", t
   for (std::uint32_t const n : {1U, 63U, 16384U, 16385U, 200003U}) {
     std::uint32_t const seed = test::run_seed();
     CAPTURE(n, seed);
-    auto const check = [&](auto shaders) {
+    auto const check = [&](auto shaders, auto const& shade) {
       ledger book;
       ds::workspace scratch{ledger_allocator<std::byte, TestType>(book)};
       auto const ids =
           test::on<TestType>(test::make_ids<std::uint16_t>(test::layout::random, n, shaders, seed));
       scratch.reserve(n, shaders);
       CHECK(scratch.capacity() >= scratch.bytes_for(n, shaders));
-      shade_all<shaders>(exec, ids, scratch);
+      shade(ids, scratch);
       TestType::wait();
       CHECK(book.allocations == 1);
     };
-    check(std::integral_constant<std::uint32_t, 1>{});
-    check(std::integral_constant<std::uint32_t, 11>{});
+    check(std::integral_constant<std::uint32_t, 11>{},
+          [&](auto const& ids, auto& scratch) { shade_all<11>(exec, ids, scratch); });
+    check(std::integral_constant<std::uint32_t, 1>{}, [&](auto const& ids, auto& scratch) {
+      ds::group_by_compaction<1>(exec, n, ids.data(), scratch);
+      ds::group_by_radix_sort<1>(exec, n, ids.data(), scratch);
+      ds::group_by_bucket<1>(exec, n, ids.data(), scratch);
+      ds::shade(exec, ds::window_sort_then_dispatch{}, n, ids.data(), ds::shader_table{nothing{}},
+                scratch);
+    });
   }
 }
 

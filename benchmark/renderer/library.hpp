@@ -88,10 +88,20 @@ struct gathered {
   __device__ place at(std::size_t p) const { return {paths, hits, p}; }
 };
 
-/// Group by material, and then shade what lives in that order, into the other arrays: paths that
-/// have ended are gone after each bounce, and nothing is read by the host. `Gathers`: by `gather`,
-/// for kernels that expect their paths side by side; else the kernel itself reads through the
-/// permutation.
+/// Shades paths where they lie, as many as there are.
+template <std::uint32_t Materials>
+struct shade_some_in_place {
+  shade_in_place<Materials> shade;
+  request_index const* count;
+  __device__ void operator()(request_index i) const {
+    if (count == nullptr || i < *count) shade(i);
+  }
+};
+
+/// Group by material, and then shade in that order, into the other arrays: paths that have ended
+/// are gone after each bounce, and nothing is read by the host. `Gathers`: by `gather`, for kernels
+/// that expect their paths side by side; else the kernel itself reads through the permutation. With
+/// one material, grouping only compacts: every second bounce is shaded in place.
 template <std::uint32_t Materials, bool Gathers>
 class grouped {
   using workspace = ds::workspace<ds::cuda_allocator<std::byte>>;
@@ -100,29 +110,39 @@ class grouped {
   void operator()(frame& f) {
     arrays* now = &f.now;
     arrays* next = &f.next;
-    ds::request_groups groups;
+    ds::request_groups groups{};
     for (int b = 0; b < bounces; ++b) {
-      // In turns: the number of requests lies in the workspace of the bounce before.
-      workspace& scratch = scratch_[b % 2];
-      auto const exec = bench::policy();
-      groups = b == 0 ? ds::group(exec, f.n, raw(now->ids), Materials, scratch)
-                      : ds::group(exec, groups.live().n, raw(now->ids), Materials, scratch);
-      auto const blocks = static_cast<unsigned>((f.n + 255) / 256);
-      if constexpr (Gathers) {
-        ds::gather(exec, groups.live(), ds::moved{raw(now->paths), raw(next->paths)},
-                   ds::moved{raw(now->hits), raw(next->hits)});
-        shade_segments<Materials><<<blocks, 256, 0, bench::stream()>>>(
-            groups.offsets, gathered{raw(next->paths), raw(next->hits)}, next->all(), f.in);
-      } else {
-        shade_segments<Materials><<<blocks, 256, 0, bench::stream()>>>(
-            groups.offsets, through{groups.permutation, raw(now->paths), raw(now->hits)},
-            next->all(), f.in);
+      if (Materials == 1 && b % 2 == 0) {
+        request_index const* const count = b == 0 ? nullptr : groups.live().n.pointer;
+        bench::for_each_request(f.n, shade_some_in_place<Materials>{{now->all(), f.in}, count});
+        continue;
       }
+      // In turns: the number of requests lies in the workspace of the grouping before.
+      workspace& scratch = scratch_[b / (Materials == 1 ? 2 : 1) % 2];
+      auto const exec = bench::policy();
+      bool const all = groups.permutation == nullptr;
+      groups = all ? ds::group(exec, f.n, raw(now->ids), Materials, scratch)
+                   : ds::group(exec, groups.live().n, raw(now->ids), Materials, scratch);
+      shade(f, groups, *now, *next);
       std::swap(now, next);
     }
   }
 
  private:
+  void shade(frame const& f, ds::request_groups const& groups, arrays& now, arrays& next) {
+    auto const blocks = static_cast<unsigned>((f.n + 255) / 256);
+    if constexpr (Gathers) {
+      ds::gather(bench::policy(), groups.live(), ds::moved{raw(now.paths), raw(next.paths)},
+                 ds::moved{raw(now.hits), raw(next.hits)});
+      shade_segments<Materials><<<blocks, 256, 0, bench::stream()>>>(
+          groups.offsets, gathered{raw(next.paths), raw(next.hits)}, next.all(), f.in);
+    } else {
+      shade_segments<Materials><<<blocks, 256, 0, bench::stream()>>>(
+          groups.offsets, through{groups.permutation, raw(now.paths), raw(now.hits)}, next.all(),
+          f.in);
+    }
+  }
+
   workspace scratch_[2];
 };
 

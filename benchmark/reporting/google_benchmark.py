@@ -34,7 +34,7 @@ class Report:
             parts = cell["name"].split("/")
             values = dict(part.split(":", 1) for part in parts if ":" in part)
             names = tuple(part for part in parts if ":" not in part and part != "manual_time")
-            key = names, int(values["n"]), int(values["run"])
+            key = names, int(values["n"]), int(values.get("run", 1))
             found[key].append(cell["real_time"] * MICROSECONDS[cell["time_unit"]])
             if "p10_us" in cell:
                 self.ranges[key] = cell["p10_us"], cell["p90_us"]

@@ -8,7 +8,7 @@ import effects
 import ratios
 import registers
 
-from . import claims, compiling, counters, hits, matrix, means, roofline, scaling, scenes, sentences, several, speedups
+from . import claims, compiling, counters, hits, matrix, means, own_kernels, roofline, scaling, scenes, sentences, several, speedups
 from . import summary
 from .google_benchmark import Report
 
@@ -71,6 +71,12 @@ VIEWS = {
     "counters": counters.counters,
     "counter": counters.counter,
     "profiled": counters.provenance,
+    "own-renderer": own_kernels.renderer,
+    "own-renderer-gain": own_kernels.renderer_gain,
+    "own-gathers": own_kernels.gathers,
+    "own-times": own_kernels.times,
+    "own-over": own_kernels.over,
+    "own-uneven": own_kernels.uneven,
 }
 PLOTS = {
     "effects": lambda *paths: effects.plot(paths),

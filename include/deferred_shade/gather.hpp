@@ -30,11 +30,12 @@ namespace deferred_shade {
 ///
 /// A renderer keeps each array twice, and `to` becomes the array of its next batch: its paths then
 /// lie in the order of their shaders, without those that have ended, and `order.n` is their number.
+/// It lies in the workspace of `group`: the next batch takes another one, in turns.
 ///
 /// Throws std::invalid_argument if a pointer is null or `to` is `from`; on a CPU, std::length_error
 /// if the number of requests exceeds its maximum; and cuda_error if CUDA refuses the launch.
 ///
-///     auto const groups = ds::group(exec, n, ids, materials, scratch);
+///     auto const groups = ds::group(exec, n, ids, materials, scratch[bounce % 2]);
 ///     ds::gather(exec, groups.live(), ds::moved{paths, next_paths}, ds::moved{hits, next_hits});
 ///     n = groups.live().n;
 template <class Policy, class... T>

@@ -49,10 +49,6 @@ struct grouping {
   request_index const* permutation;
   request_index const* offsets;
   std::size_t maximum = max_requests;
-  /// On CUDA, two counters for each shader, by which the blocks of a launch share out a segment
-  /// that is longer than their grid; or null: then every block has a fixed share. Both are 0
-  /// whenever no launch runs.
-  std::uint32_t* progress = nullptr;
 };
 
 /// An order of requests: at place p stands request `permutation[p]`, for p from 0 to n - 1. Both

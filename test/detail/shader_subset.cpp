@@ -22,17 +22,8 @@ namespace ds = deferred_shade;
 namespace {
 
 constexpr std::uint32_t shaders = 32;
-using kept = ds::ids<0, 3, 4, 17, 31>;
+bool is_kept(std::uint32_t id) { return test::is_kept<0, 3, 4, 17, 31>(id); }
 enum class kind : std::uint16_t {};
-
-template <std::uint32_t... Ids, class Table>
-auto part_of(ds::ids<Ids...>, Table const& table) {
-  return table.template only<Ids...>();
-}
-template <std::uint32_t... Ids>
-bool is_kept(ds::ids<Ids...>, std::uint32_t id) {
-  return ((id == Ids) || ...);
-}
 
 /// Ids of all values around those that the table has, and the ends of their type.
 template <class T>
@@ -66,23 +57,29 @@ struct shader_of_hit {
   DEFERRED_SHADE_HOST_DEVICE std::uint32_t operator()(hit const& h) const { return h.shader; }
 };
 
-/// Runs the kept part of a table over `ids`, of which `value_of(i)` are the values on the host.
-template <class Backend, class Ids, class Values>
-void check_part(std::uint32_t n, Ids ids, Values const& value_of) {
+/// Runs the kept part of a table over `ids`, of which `value_of(i)` are the values on the host, by
+/// these schedules.
+template <class Backend, class Ids, class Values, class... Schedules>
+void check_part(std::uint32_t n, Ids ids, Values const& value_of, Schedules const&... schedules) {
   std::vector<std::uint32_t> left(n);
   for (std::uint32_t i = 0; i < n; ++i) {
     std::uint32_t const id = value_of(i);
-    left[i] = is_kept(kept{}, id) ? id : shaders;
+    left[i] = is_kept(id) ? id : shaders;
   }
   auto const expected = test::traced_by_loop<shaders>(n, left.data(), n);
-  test::for_each_schedule([&](auto const& schedule) {
+  auto const check = [&](auto const& schedule) {
     ds::workspace scratch{Backend::policy()};
     test::trace<Backend> actual(n);
     auto const table = test::tracing_table<shaders>(actual.value.data(), actual.runs.data());
-    ds::shade(Backend::policy(), schedule, n, ids, part_of(kept{}, table), scratch);
+    ds::shade(Backend::policy(), schedule, n, ids, table.template only<0, 3, 4, 17, 31>(), scratch);
     Backend::wait();
     test::check_same(actual, expected);
-  });
+  };
+  if constexpr (sizeof...(Schedules) == 0) {
+    test::for_each_schedule(check);
+  } else {
+    (check(schedules), ...);
+  }
 }
 
 }  // namespace
@@ -93,7 +90,7 @@ TEST_CASE("the place of an id among those that are there", "[gaps]") {
   std::uint32_t next = 0;
   for (std::uint32_t id = 0; id < 70; ++id) {
     CAPTURE(id);
-    CHECK(place(id) == (is_kept(kept{}, id) ? next++ : 32));
+    CHECK(place(id) == (is_kept(id) ? next++ : 32));
   }
   CHECK(next == 5);
   CHECK(place(static_cast<std::int8_t>(-1)) == 32);
@@ -104,7 +101,8 @@ TEST_CASE("the place of an id among those that are there", "[gaps]") {
 
 TEST_CASE("a table without gaps has the shaders that were there, in order", "[gaps]") {
   auto const table = test::tracing_table<shaders>(nullptr, nullptr);
-  auto const part = part_of(kept{}, table).expecting(std::bitset<shaders>().set(3).set(5).set(31));
+  auto const part =
+      table.only<0, 3, 4, 17, 31>().expecting(std::bitset<shaders>().set(3).set(5).set(31));
   auto const dense = ds::detail::without_gaps(part, std::make_index_sequence<5>());
   CHECK(dense.size() == 5);
   std::vector<std::uint32_t> ids;
@@ -113,23 +111,26 @@ TEST_CASE("a table without gaps has the shaders that were there, in order", "[ga
   CHECK(dense.expected() == std::bitset<5>(0b10010));
 }
 
+// Every schedule with ids of one type, and one after the other with those of others: an id is
+// turned into a place by an iterator of which no schedule knows.
 TEMPLATE_LIST_TEST_CASE("a part of a table takes ids of any type", "[gaps]", test::backends) {
   CAPTURE(test::run_seed());
-  auto const check = [](auto type, std::uint32_t n) {
+  auto const check = [](auto type, auto const&... schedules) {
     using id = decltype(type);
-    CAPTURE(sizeof(id), n);
-    auto const host = ids_of_type<id>(n);
-    auto const ids = test::on<TestType>(host);
-    check_part<TestType>(n, ids.data(),
-                         [&](std::uint32_t i) { return static_cast<std::uint32_t>(host[i]); });
+    for (std::uint32_t const n : {1U, 33U, 8193U}) {
+      CAPTURE(sizeof(id), n);
+      auto const host = ids_of_type<id>(n);
+      auto const ids = test::on<TestType>(host);
+      check_part<TestType>(
+          n, ids.data(), [&](std::uint32_t i) { return static_cast<std::uint32_t>(host[i]); },
+          schedules...);
+    }
   };
-  for (std::uint32_t const n : {1U, 33U, 8193U}) {
-    check(std::uint8_t{}, n);
-    check(std::int8_t{}, n);
-    check(std::uint16_t{}, n);
-    check(std::int32_t{}, n);
-    check(kind{}, n);
-  }
+  check(std::uint8_t{});
+  check(std::int8_t{}, ds::implicit_serialization{}, ds::sort_then_dispatch<>{});
+  check(std::uint16_t{}, ds::explicit_serialization{}, ds::local_sort_then_dispatch<>{});
+  check(std::int32_t{}, ds::bucket_then_dispatch<>{}, ds::window_sort_then_dispatch{});
+  check(kind{}, ds::compact_then_dispatch<>{}, ds::local_sort_then_dispatch<ds::bitonic>{});
 }
 
 TEMPLATE_LIST_TEST_CASE("a part of a table takes ids from any iterator", "[gaps]", test::backends) {
@@ -140,11 +141,15 @@ TEMPLATE_LIST_TEST_CASE("a part of a table takes ids from any iterator", "[gaps]
   auto const one_more = [&](std::uint32_t i) { return std::uint32_t{host[i]} + 1; };
   using of_pointer =
       thrust::transform_iterator<plus_one, decltype(ids.data()), std::uint32_t, std::uint32_t>;
-  check_part<TestType>(n, of_pointer(ids.data(), {}), one_more);
-  check_part<TestType>(n - 3, of_pointer(ids.data() + 3, {}),
-                       [&](std::uint32_t i) { return one_more(i + 3); });
-  check_part<TestType>(70, thrust::counting_iterator<std::uint32_t>(0),
-                       [](std::uint32_t i) { return i; });
+  auto const bucket = ds::bucket_then_dispatch<>{};
+  auto const window = ds::window_sort_then_dispatch{};
+  check_part<TestType>(n, of_pointer(ids.data(), {}), one_more, bucket, window);
+  check_part<TestType>(
+      n - 3, of_pointer(ids.data() + 3, {}), [&](std::uint32_t i) { return one_more(i + 3); },
+      bucket, window);
+  check_part<TestType>(
+      70, thrust::counting_iterator<std::uint32_t>(0), [](std::uint32_t i) { return i; },
+      ds::sort_then_dispatch<>{}, ds::local_sort_then_dispatch<>{});
 }
 
 TEMPLATE_LIST_TEST_CASE("ids may lie in records, for a table and for a part of it", "[gaps]",
@@ -158,16 +163,20 @@ TEMPLATE_LIST_TEST_CASE("ids may lie in records, for a table and for a part of i
   using iterator = thrust::transform_iterator<shader_of_hit, decltype(hits.data()), std::uint32_t,
                                               std::uint32_t>;
   iterator const ids(hits.data(), {});
-  check_part<TestType>(n, ids, [&](std::uint32_t i) { return host[i].shader; });
+  check_part<TestType>(
+      n, ids, [&](std::uint32_t i) { return host[i].shader; }, ds::implicit_serialization{},
+      ds::compact_then_dispatch<>{}, ds::window_sort_then_dispatch{});
   ds::workspace scratch{TestType::policy()};
   auto const expected = test::traced_by_loop<shaders>(n, drawn.data(), n);
-  test::for_each_schedule([&](auto const& schedule) {
+  auto const check = [&](auto const& schedule) {
     test::trace<TestType> actual(n);
     auto const table = test::tracing_table<shaders>(actual.value.data(), actual.runs.data());
     ds::shade(TestType::policy(), schedule, n, ids, table, scratch);
     TestType::wait();
     test::check_same(actual, expected);
-  });
+  };
+  check(ds::bucket_then_dispatch<>{});
+  check(ds::local_sort_then_dispatch<>{});
 }
 
 TEMPLATE_LIST_TEST_CASE("a part of a table may be specialized further", "[gaps]", test::backends) {
@@ -185,7 +194,8 @@ TEMPLATE_LIST_TEST_CASE("a part of a table may be specialized further", "[gaps]"
     ds::workspace scratch{TestType::policy()};
     test::trace<TestType> actual(n);
     auto const table = test::tracing_table<shaders>(actual.value.data(), actual.runs.data());
-    ds::shade(TestType::policy(), schedule, n, ids.data(), part_of(kept{}, table), scratch);
+    ds::shade(TestType::policy(), schedule, n, ids.data(), table.template only<0, 3, 4, 17, 31>(),
+              scratch);
     TestType::wait();
     test::check_same(actual, expected);
   };

@@ -51,16 +51,17 @@ struct tbb : on_host {
 #endif
 
 /// The Thrust systems for CPUs that this build tests, for TEMPLATE_LIST_TEST_CASE.
-using host_backends = std::tuple<cpp
+using host_backends = decltype(std::tuple_cat(
+#ifdef DEFERRED_SHADE_TEST_CPP
+    std::tuple<cpp>{},
+#endif
 #ifdef DEFERRED_SHADE_TEST_OMP
-                                 ,
-                                 omp
+    std::tuple<omp>{},
 #endif
 #ifdef DEFERRED_SHADE_TEST_TBB
-                                 ,
-                                 tbb
+    std::tuple<tbb>{},
 #endif
-                                 >;
+    std::tuple<>{}));
 
 /// All Thrust systems that this build tests.
 #ifdef DEFERRED_SHADE_TEST_CUDA

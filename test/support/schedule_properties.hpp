@@ -44,25 +44,43 @@ struct tracing_shader {
   }
 };
 
-template <std::uint32_t... Ids>
-auto tracing_table(float* value, std::uint32_t* runs,
-                   std::integer_sequence<std::uint32_t, Ids...>) {
-  return ds::shader_table{tracing_shader{Ids, value, runs}...};
+/// Whether a table has code for `id`: for all of its shaders if `Kept` is empty, else for those.
+template <std::uint32_t... Kept>
+constexpr bool is_kept(std::uint32_t id) {
+  return sizeof...(Kept) == 0 || ((id == Kept) || ...);
 }
 
-/// The table of `Shaders` shaders that write to a trace.
-template <std::uint32_t Shaders>
+/// The table of `Shaders` shaders that `make` makes of their ids, or of no_shader where `Kept` has
+/// none. A large one that has code for few takes a compiler seconds, where all take a minute.
+template <std::uint32_t... Kept, class Make, std::uint32_t... Ids>
+auto table_of(Make const& make, std::integer_sequence<std::uint32_t, Ids...>) {
+  auto const slot = [&make](auto id) {
+    if constexpr (is_kept<Kept...>(id)) {
+      return make(id);
+    } else {
+      return ds::no_shader{};
+    }
+  };
+  return ds::shader_table{slot(std::integral_constant<std::uint32_t, Ids>{})...};
+}
+
+/// The table of `Shaders` shaders that write to a trace; see table_of for `Kept`.
+template <std::uint32_t Shaders, std::uint32_t... Kept>
 auto tracing_table(float* value, std::uint32_t* runs) {
-  return tracing_table(value, runs, std::make_integer_sequence<std::uint32_t, Shaders>());
+  return table_of<Kept...>(
+      [=](std::uint32_t id) {
+        return tracing_shader{id, value, runs};
+      },
+      std::make_integer_sequence<std::uint32_t, Shaders>());
 }
 
-/// What a plain loop over the first `count` of `n` requests leaves.
-template <std::uint32_t Shaders, class Ids>
+/// What a plain loop over the first `count` of `n` requests leaves; see table_of for `Kept`.
+template <std::uint32_t Shaders, std::uint32_t... Kept, class Ids>
 trace<cpp> traced_by_loop(std::uint32_t n, Ids ids, std::uint32_t count) {
   trace<cpp> expected(n);
   for (std::uint32_t i = 0; i < count; ++i) {
     auto const id = static_cast<std::uint32_t>(ids[static_cast<std::ptrdiff_t>(i)]);
-    if (id >= Shaders) continue;
+    if (id >= Shaders || !is_kept<Kept...>(id)) continue;
     expected.value[i] = arithmetic(id, i);
     ++expected.runs[i];
   }
@@ -77,14 +95,16 @@ void check_same(A const& actual, B const& expected) {
   CHECK(first_difference(actual.value, expected.value) == n);
 }
 
-/// Runs `schedule` over `n` requests and compares with a plain loop, bit by bit.
-template <class Backend, std::uint32_t Shaders, class Schedule, class Ids, class Workspace>
+/// Runs `schedule` over `n` requests and compares with a plain loop, bit by bit; see table_of for
+/// `Kept`.
+template <class Backend, std::uint32_t Shaders, std::uint32_t... Kept, class Schedule, class Ids,
+          class Workspace>
 void check_against_loop(Schedule const& schedule, std::uint32_t n, Ids ids, Workspace& scratch) {
   trace<Backend> actual(n);
   ds::shade(Backend::policy(), schedule, n, ids,
-            tracing_table<Shaders>(actual.value.data(), actual.runs.data()), scratch);
+            tracing_table<Shaders, Kept...>(actual.value.data(), actual.runs.data()), scratch);
   Backend::wait();
-  check_same(actual, traced_by_loop<Shaders>(n, ids, n));
+  check_same(actual, traced_by_loop<Shaders, Kept...>(n, ids, n));
 }
 
 /// All layouts for one type of id.

@@ -14,10 +14,11 @@
 
 namespace deferred_shade::detail {
 
-/// Moves the elements at the places from `begin` to `end` of an order.
+/// Moves the elements at the places from `begin` to `end` of an order. (Not inline: g++ would warn
+/// of places that arrays of a known length do not have.)
 template <bool Scatter, class T>
-void move_elements(request_index const* permutation, std::size_t begin, std::size_t end,
-                   moved<T> array) {
+DEFERRED_SHADE_NOINLINE void move_elements(request_index const* permutation, std::size_t begin,
+                                           std::size_t end, moved<T> array) {
   for (std::size_t p = begin; p < end; ++p) {
     std::size_t const i = permutation[p];
     T const* const from = array.from + (Scatter ? p : i);

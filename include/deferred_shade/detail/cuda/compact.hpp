@@ -82,13 +82,11 @@ grouping compact_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Wor
   };
   std::size_t bytes = 0;
   select_shader(nullptr, bytes, 0, nullptr, nullptr, nullptr);
-  auto const [permutation, memory, offsets, progress] =
+  auto const [permutation, memory, offsets] =
       scratch.take(elements<request_index>(maximum), elements<std::byte>(bytes),
-                   elements<request_index>(Shaders + 1), elements<std::uint32_t>(2 * Shaders));
+                   elements<request_index>(Shaders + 1));
   detail::check_cuda(cudaMemsetAsync(offsets, 0, sizeof(request_index), stream),
                      "clearing an offset");
-  detail::check_cuda(cudaMemsetAsync(progress, 0, 2 * Shaders * sizeof(std::uint32_t), stream),
-                     "clearing counters");
   request_index* begin = offsets;
   for (shader_id k = 0; k < Shaders; ++k) {
     if (!wanted[k]) continue;
@@ -101,7 +99,7 @@ grouping compact_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Wor
         "stream compaction", stream, {detail::blocks_for(Shaders + 1, threads), threads}, offsets,
         shader_bits<Shaders>(wanted));
   }
-  return {permutation, offsets, maximum, progress};
+  return {permutation, offsets, maximum};
 }
 
 }  // namespace DEFERRED_SHADE_ARCHITECTURES

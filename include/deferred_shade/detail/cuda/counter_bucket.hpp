@@ -51,8 +51,7 @@ template <shader_id Shaders, class Count, class Ids>
 __global__ void __launch_bounds__(bucket_threads,
                                   blocks_that_fit(counter_place_blocks, bucket_threads))
     counter_bucket_place_kernel(Count n, Ids ids, std::uint32_t const* places,
-                                request_index* permutation, request_index* offsets,
-                                std::uint32_t* progress) {
+                                request_index* permutation, request_index* offsets) {
   using sort = tile_sort<Shaders, bucket_threads, bucket_items>;
   __shared__ union {
     typename sort::temporary_storage sorting;
@@ -70,9 +69,7 @@ __global__ void __launch_bounds__(bucket_threads,
   for (std::uint32_t k = threadIdx.x; k < Shaders; k += bucket_threads) {
     std::uint32_t const place = places[k * gridDim.x + blockIdx.x];
     shift[k] = place - starts[k];
-    if (blockIdx.x != 0) continue;
-    offsets[k] = place;
-    progress[2 * k] = progress[2 * k + 1] = 0;
+    if (blockIdx.x == 0) offsets[k] = place;
   }
   if (blockIdx.x == 0 && threadIdx.x == 0) offsets[Shaders] = places[Shaders * gridDim.x];
 #pragma unroll
@@ -106,18 +103,17 @@ grouping counter_bucket_grouping(cudaStream_t stream, Count n, Ids ids, Workspac
   using passes = two_passes<Shaders, Ids>;
   using first_ids = typename passes::first;
   using second_ids = typename passes::second;
-  auto const [permutation, counts, memory, offsets, progress, copy] =
-      scratch.take(elements<request_index>(maximum), elements<std::uint32_t>(tiles * Shaders + 1),
-                   elements<std::byte>(bytes), elements<request_index>(Shaders + 1),
-                   elements<std::uint32_t>(2 * Shaders), passes::memory(maximum));
+  auto const [permutation, counts, memory, offsets, copy] = scratch.take(
+      elements<request_index>(maximum), elements<std::uint32_t>(tiles * Shaders + 1),
+      elements<std::byte>(bytes), elements<request_index>(Shaders + 1), passes::memory(maximum));
   launch_shape const shape{tiles, bucket_threads};
   detail::launch<&counter_bucket_count_kernel<Shaders, Count, first_ids>>(
       "bucket count", stream, shape, n, passes::read_first(ids, copy), counts);
   scan(memory, bytes, counts);
   detail::launch<&counter_bucket_place_kernel<Shaders, Count, second_ids>>(
       "bucket place", stream, shape, n, passes::read_second(ids, copy), counts, permutation,
-      offsets, progress);
-  return {permutation, offsets, maximum, progress};
+      offsets);
+  return {permutation, offsets, maximum};
 }
 
 }  // namespace DEFERRED_SHADE_ARCHITECTURES

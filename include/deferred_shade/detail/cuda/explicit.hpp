@@ -29,53 +29,17 @@ __global__ void masked_kernel(bool first, Count n, Ids ids, Shader const __grid_
     detail::call_on_device(shader, i);
 }
 
-/// The stretches of a segment that this block runs, each of a block's threads. If there are more of
-/// them than blocks, each block takes the next one that is left: a block that starts late takes
-/// fewer. Without `progress`, shares are fixed.
-class shared_stretches {
- public:
-  __device__ shared_stretches(std::uint32_t* progress, std::size_t stretches)
-      : progress_(stretches > gridDim.x ? progress : nullptr), stretches_(stretches) {}
-
-  /// Calls `run(stretch)` for each of them. All threads of the block must call it.
-  template <class Run>
-  __device__ void for_each(Run const& run) const {
-    if (progress_ == nullptr) {
-      for (std::size_t s = blockIdx.x; s < stretches_; s += gridDim.x) run(s);
-      return;
-    }
-    __shared__ std::uint32_t taken;
-    for (std::size_t s = blockIdx.x; s < stretches_;) {
-      if (threadIdx.x == 0) taken = atomicAdd(&progress_[0], 1);
-      run(s);
-      __syncthreads();
-      s = std::size_t{gridDim.x} + taken;
-      __syncthreads();
-    }
-    // The last block to end leaves the counters as they were.
-    if (threadIdx.x != 0) return;
-    __threadfence();
-    if (atomicAdd(&progress_[1], 1) == gridDim.x - 1) progress_[0] = progress_[1] = 0;
-  }
-
- private:
-  std::uint32_t* progress_;
-  std::size_t stretches_;
-};
-
-/// Runs one shader on its segment. The grid does not know how long that is.
+/// Runs one shader on its segment. The host does not know its length: the threads of the grid
+/// stride over the segment until its end. (Blocks that take the next stretch by a counter are not
+/// faster: docs/results/h200-own-kernels.md.)
 template <class Shader>
 __global__ void segment_kernel(bool first, request_index const* permutation,
-                               request_index const* offset, std::uint32_t* progress,
-                               Shader const __grid_constant__ shader) {
+                               request_index const* offset, Shader const __grid_constant__ shader) {
   independent_kernel const among_those_of_all_shaders(first);
-  std::size_t const begin = offset[0];
   std::size_t const end = offset[1];
-  std::size_t const stretches = (end - begin + blockDim.x - 1) / blockDim.x;
-  shared_stretches(progress, stretches).for_each([&](std::size_t s) {
-    std::size_t const p = begin + s * blockDim.x + threadIdx.x;
-    if (p < end) detail::call_on_device(shader, permutation[p]);
-  });
+  std::size_t const stride = std::size_t{gridDim.x} * blockDim.x;
+  std::size_t p = offset[0] + std::size_t{blockIdx.x} * blockDim.x + threadIdx.x;
+  for (; p < end; p += stride) detail::call_on_device(shader, permutation[p]);
 }
 
 /// The launches of masked_kernel, one for each shader.
@@ -154,9 +118,9 @@ void run_explicit(cuda_system, Policy const& exec, grouping group,
   detail::launch_each(
       launches, shaders, scratch, [&](auto id, auto const& shader, launch_shape shape, bool first) {
         using type = std::decay_t<decltype(shader)>;
-        detail::launch<&segment_kernel<type>>(
-            "explicit_serialization", detail::stream_of(exec), shape, first, group.permutation,
-            group.offsets + id, group.progress ? group.progress + 2 * id : nullptr, shader);
+        detail::launch<&segment_kernel<type>>("explicit_serialization", detail::stream_of(exec),
+                                              shape, first, group.permutation, group.offsets + id,
+                                              shader);
       });
 }
 

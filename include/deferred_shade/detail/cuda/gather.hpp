@@ -80,36 +80,37 @@ __device__ void move_rows(Word const* from, Word* to, request_index const* other
 }
 
 /// The same of one array, for all places of a warp.
-template <bool Scatter, bool Wide, class T>
-__device__ void move_array(moved<T> array, request_index const (&others)[moved_rows],
-                           std::size_t first, std::uint32_t size) {
+template <bool Scatter, bool Wide, std::uint32_t Rows, class T>
+__device__ void move_array(moved<T> array, request_index const (&others)[Rows], std::size_t first,
+                           std::uint32_t size) {
   using words = words_of<T, Wide>;
   using word = typename words::type;
-  constexpr std::uint32_t rows = words::count == 1 ? 4 : words::count == 2 ? 2 : 1;
+  constexpr std::uint32_t wanted = words::count == 1 ? 4 : words::count == 2 ? 2 : 1;
+  constexpr std::uint32_t rows = wanted < Rows ? wanted : Rows;
   auto const* const from = reinterpret_cast<word const*>(array.from);
   auto* const to = reinterpret_cast<word*>(array.to);
 #pragma unroll
-  for (std::uint32_t r = 0; r < moved_rows; r += rows) {
+  for (std::uint32_t r = 0; r < Rows; r += rows) {
     if (r * warp_size >= size) return;
     detail::move_rows<Scatter, words::count, rows>(from, to, others + r, first + r * warp_size,
                                                    size - r * warp_size);
   }
 }
 
-/// Moves all arrays. Every warp has some rows of 32 neighbouring places.
-template <bool Scatter, bool Wide, class... T>
+/// Moves all arrays. Every warp has `Rows` rows of 32 neighbouring places.
+template <bool Scatter, bool Wide, std::uint32_t Rows, class... T>
 __global__ void __launch_bounds__(moved_threads)
     move_kernel(request_order order, moved<T>... arrays) {
   detail::begin_after_earlier_kernels();
+  constexpr std::size_t places = Rows * warp_size;
   std::size_t const n = detail::size_of(order.n);
   std::size_t const thread = std::size_t{blockIdx.x} * moved_threads + threadIdx.x;
-  std::size_t const first = thread / warp_size * (moved_rows * warp_size);
+  std::size_t const first = thread / warp_size * places;
   if (first >= n) return;
-  auto const size =
-      static_cast<std::uint32_t>((min)(n - first, std::size_t{moved_rows * warp_size}));
-  request_index others[moved_rows];
+  auto const size = static_cast<std::uint32_t>((min)(n - first, places));
+  request_index others[Rows];
 #pragma unroll
-  for (std::uint32_t r = 0; r < moved_rows; ++r) {
+  for (std::uint32_t r = 0; r < Rows; ++r) {
     std::uint32_t const p = r * warp_size + threadIdx.x % warp_size;
     others[r] = p < size ? order.permutation[first + p] : 0;
   }
@@ -118,15 +119,16 @@ __global__ void __launch_bounds__(moved_threads)
 
 template <bool Scatter, class Policy, class... T>
 void move_arrays(cuda_system, Policy const& exec, request_order order, moved<T>... arrays) {
+  constexpr std::uint32_t rows = detail::moved_rows((sizeof(T) + ... + 0));
   char const* const what = Scatter ? "scatter" : "gather";
-  launch_shape const shape{detail::blocks_for(order.n.maximum, moved_threads * moved_rows),
+  launch_shape const shape{detail::blocks_for(order.n.maximum, moved_threads * rows),
                            moved_threads};
   if ((detail::are_wide(arrays) && ... && true)) {
-    detail::launch<&move_kernel<Scatter, true, T...>>(what, detail::stream_of(exec), shape, order,
-                                                      arrays...);
+    detail::launch<&move_kernel<Scatter, true, rows, T...>>(what, detail::stream_of(exec), shape,
+                                                            order, arrays...);
   } else {
-    detail::launch<&move_kernel<Scatter, false, T...>>(what, detail::stream_of(exec), shape, order,
-                                                       arrays...);
+    detail::launch<&move_kernel<Scatter, false, rows, T...>>(what, detail::stream_of(exec), shape,
+                                                             order, arrays...);
   }
 }
 

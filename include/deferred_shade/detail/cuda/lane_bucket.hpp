@@ -104,7 +104,6 @@ struct bucket_output {
   std::uint32_t const* totals;
   request_index* permutation;
   request_index* offsets;
-  std::uint32_t* progress;
 
   struct shared_memory {};
 
@@ -117,7 +116,6 @@ struct bucket_output {
     std::uint32_t const offset = detail::exclusive_sum_of_warp(total);
     if (blockIdx.x == 0 && threadIdx.x == lane && lane < Shaders) {
       offsets[lane] = offset;
-      progress[2 * lane] = progress[2 * lane + 1] = 0;
       if (lane == Shaders - 1) offsets[Shaders] = offset + total;
     }
     return offset + (lane < Shaders ? earlier[lane * gridDim.x + blockIdx.x] : 0);
@@ -136,10 +134,10 @@ grouping lane_bucket_grouping(cudaStream_t stream, Count n, Ids ids, Workspace& 
   using first_ids = typename passes::first;
   using second_ids = typename passes::second;
   using output = bucket_output<Shaders>;
-  auto const [permutation, counts, totals, offsets, progress, copy] =
+  auto const [permutation, counts, totals, offsets, copy] =
       scratch.take(elements<request_index>(maximum), elements<std::uint32_t>(tiles * Shaders),
                    elements<std::uint32_t>(Shaders), elements<request_index>(Shaders + 1),
-                   elements<std::uint32_t>(2 * Shaders), passes::memory(maximum));
+                   passes::memory(maximum));
   auto const row = static_cast<std::uint32_t>(tiles);
   launch_shape const shape{tiles, bucket_threads};
   detail::launch<&lane_bucket_count_kernel<Shaders, Count, first_ids>>(
@@ -149,8 +147,8 @@ grouping lane_bucket_grouping(cudaStream_t stream, Count n, Ids ids, Workspace& 
                                              row, counts, totals);
   detail::launch<&lane_bucket_place_kernel<Shaders, passes::copies, Count, second_ids, output>>(
       "bucket place", stream, shape, n, passes::read_second(ids, copy),
-      output{counts, totals, permutation, offsets, progress});
-  return {permutation, offsets, maximum, progress};
+      output{counts, totals, permutation, offsets});
+  return {permutation, offsets, maximum};
 }
 
 }  // namespace DEFERRED_SHADE_ARCHITECTURES

@@ -31,8 +31,7 @@ __global__ void radix_pairs_kernel(std::size_t maximum, Count n, Ids ids, Key* k
 
 /// Sets offsets[k] to the number of keys below k.
 template <shader_id Shaders, class Key>
-__global__ void radix_offsets_kernel(std::size_t size, Key const* keys, request_index* offsets,
-                                     std::uint32_t* progress) {
+__global__ void radix_offsets_kernel(std::size_t size, Key const* keys, request_index* offsets) {
   detail::begin_after_earlier_kernels();
   std::uint32_t const k = blockIdx.x * blockDim.x + threadIdx.x;
   if (k > Shaders) return;
@@ -44,7 +43,6 @@ __global__ void radix_offsets_kernel(std::size_t size, Key const* keys, request_
     length = below ? length - half - 1 : half;
   }
   offsets[k] = static_cast<request_index>(first);
-  if (k < Shaders) progress[2 * k] = progress[2 * k + 1] = 0;
 }
 
 template <shader_id Shaders, class Policy, class Count, class Ids, class Workspace>
@@ -65,10 +63,10 @@ grouping radix_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Works
   cub::DoubleBuffer<key> keys(nullptr, nullptr);
   cub::DoubleBuffer<request_index> indices(nullptr, nullptr);
   sort(nullptr, bytes, keys, indices);
-  auto const [keys_0, keys_1, indices_0, indices_1, memory, offsets, progress] =
+  auto const [keys_0, keys_1, indices_0, indices_1, memory, offsets] =
       scratch.take(elements<key>(maximum), elements<key>(maximum), elements<request_index>(maximum),
                    elements<request_index>(maximum), elements<std::byte>(bytes),
-                   elements<request_index>(Shaders + 1), elements<std::uint32_t>(2 * Shaders));
+                   elements<request_index>(Shaders + 1));
   keys = {keys_0, keys_1};
   indices = {indices_0, indices_1};
   detail::launch<&radix_pairs_kernel<Shaders, key, Count, Ids>>(
@@ -77,8 +75,8 @@ grouping radix_grouping(cuda_system, Policy const& exec, Count n, Ids ids, Works
   sort(memory, bytes, keys, indices);
   detail::launch<&radix_offsets_kernel<Shaders, key>>(
       "radix sort's offsets", stream, {detail::blocks_for(Shaders + 1, threads), threads}, maximum,
-      keys.Current(), offsets, progress);
-  return {indices.Current(), offsets, maximum, progress};
+      keys.Current(), offsets);
+  return {indices.Current(), offsets, maximum};
 }
 
 }  // namespace DEFERRED_SHADE_ARCHITECTURES

@@ -65,10 +65,11 @@ inline constexpr std::uint32_t bucket_scan_threads = 1024;
 inline constexpr std::uint32_t window_tiles = 32;
 inline constexpr std::uint32_t window_size = window_tiles * bucket_tile;
 
-/// Moved arrays: a warp has so many rows of 32 elements, for loads of small elements to be under
-/// way together.
+/// Moved arrays: a warp has so many rows of 32 places. Small elements need several rows, for enough
+/// loads to be under way. With large ones, more places are under way than the second-level cache
+/// holds, and neighbours that share a sector do not meet there.
 inline constexpr std::uint32_t moved_threads = 256;
-inline constexpr std::uint32_t moved_rows = 4;
+constexpr std::uint32_t moved_rows(std::size_t bytes) { return bytes < 32 ? 4 : 1; }
 
 /// Threads per block of kernels that only copy or fill: any number does.
 inline constexpr std::uint32_t copy_threads = 256;

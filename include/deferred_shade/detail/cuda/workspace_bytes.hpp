@@ -29,8 +29,7 @@ constexpr std::size_t radix_bytes(cuda_system, std::size_t n, std::size_t shader
   std::size_t const key = shaders <= 0xff ? 1 : shaders <= 0xffff ? 2 : 4;
   return 2 * array_bytes<request_index>(n) + 2 * array_bytes<std::byte>(n * key) +
          detail::array_bytes<std::byte>(4 * n + (std::size_t{3} << 20)) +
-         detail::array_bytes<request_index>(shaders + 1) +
-         detail::array_bytes<std::uint32_t>(2 * shaders);
+         detail::array_bytes<request_index>(shaders + 1);
 }
 
 /// The bytes of an id, if ids behind an iterator are copied: see two_passes.
@@ -45,15 +44,13 @@ constexpr std::size_t bucket_bytes(cuda_system where, std::size_t n, std::size_t
       detail::array_bytes<request_index>(n) + detail::array_bytes<std::uint32_t>(counters) +
       detail::array_bytes<std::uint32_t>(counted) + detail::cub_scan_bytes(counters) +
       detail::array_bytes<request_index>(counted + 1) +
-      detail::array_bytes<std::uint32_t>(2 * counted) +
       detail::array_bytes<std::byte>(n * detail::copied_id_bytes(counted));
   return shaders > counted ? (std::max)(buckets, detail::radix_bytes(where, n, shaders)) : buckets;
 }
 
 constexpr std::size_t compact_bytes(cuda_system, std::size_t n, std::size_t shaders) {
   return detail::array_bytes<request_index>(n) + detail::cub_scan_bytes(n) +
-         detail::array_bytes<request_index>(shaders + 1) +
-         detail::array_bytes<std::uint32_t>(2 * shaders);
+         detail::array_bytes<request_index>(shaders + 1);
 }
 
 constexpr std::size_t window_bytes(cuda_system where, std::size_t n, std::size_t shaders) {

@@ -48,20 +48,18 @@ void check(Group const& group) {
   ds::shader_table const shaders{counted<0>{out}, counted<1>{out}, counted<2>{out}, counted<3>{out},
                                  counted<4>{out}};
   ds::grouping const grouped = group(exec, n, ids.data(), scratch);
-  REQUIRE(grouped.progress != nullptr);
   for (std::uint32_t times = 1; times <= 3; ++times) {
     ds::explicit_serialization{}(exec, grouped, shaders, scratch);
     test::cuda::wait();
     std::size_t wrong = 0;
     for (std::uint32_t i = 0; i < n; ++i) wrong += runs[i] != (ids[i] < 5 ? times : 0);
     CHECK(wrong == 0);
-    CHECK(test::cuda::read(grouped.progress, 10) == std::vector<std::uint32_t>(10));
   }
 }
 
 }  // namespace
 
-TEST_CASE("blocks share out a long segment", "[cuda]") {
+TEST_CASE("a segment may be longer than the grid of its launch", "[cuda]") {
   check([](auto const& exec, std::uint32_t n, auto ids, auto& scratch) {
     return ds::group_by_bucket<5>(exec, n, ids, scratch);
   });
