@@ -1,23 +1,35 @@
 # SPDX-License-Identifier: Apache-2.0
 """Checks that each code block of the README and docs/ that names an example is that example, line
-by line, and that each block that names two files and a limit is their diff, with fewer lines added
+by line, or, if it also names the text that a line begins with, the part from that line to its closing brace. Each block
+that names two files and a limit is their diff, with fewer lines added
 and removed than that. `readme.py --write` puts the examples and diffs in. The README keeps to 110 lines, and the glossary
 has every term that it and the pictures' page define in bold."""
 import difflib
 import pathlib
 import re
 import sys
+import textwrap
 
 root = pathlib.Path(__file__).resolve().parent.parent
-example_pattern = re.compile(r"(<!-- example: (\S+) -->\n```cpp\n)(.*?)(```\n)", re.DOTALL)
+example_pattern = re.compile(r"(<!-- example: (\S+?)(?:, from '([^'\n]+)')? -->\n```cpp\n)(.*?)(```\n)",
+                             re.DOTALL)
 diff_pattern = re.compile(
     r"(<!-- diff: (\S+) (\S+), fewer than (\d+) lines -->\n```diff\n)(.*?)(```\n)", re.DOTALL)
 wrong_length = []
 
 
+def part(source, begin):
+    """The lines from the one that begins with a text to the first closing brace that is indented as it is."""
+    found = re.findall(rf"^( *)({re.escape(begin)}.*?^)\1(}}[^\n]*\n)", source, re.DOTALL | re.MULTILINE)
+    if len(found) != 1:
+        sys.exit(f"{len(found)} parts of an example begin with '{begin}'")
+    return textwrap.dedent("".join(found[0][i] for i in (0, 1, 0, 2)))
+
+
 def example(match):
     source = (root / match[2]).read_text(encoding="utf-8")
-    return match[1] + re.sub(r"\A// SPDX.*\n", "", source) + match[4]
+    shown = part(source, match[3]) if match[3] else re.sub(r"\A// SPDX.*\n", "", source)
+    return match[1] + shown + match[5]
 
 
 def diff(match):
@@ -30,6 +42,8 @@ def diff(match):
     return match[1] + "".join(lines) + match[6]
 
 
+if part("a;\n  b {\n    c {\n    }\n  };\n  }\n", "b") != "b {\n  c {\n  }\n};\n":
+    sys.exit("the check of parts itself is wrong")
 stale = []
 count = 0
 for page in [root / "README.md", *sorted(root.glob("docs/**/*.md"))]:
