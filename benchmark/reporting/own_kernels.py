@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Renderers with kernels of their own: tables and figures of benchmark_renderer, benchmark_gather, benchmark_shared and
-benchmark_uneven."""
+benchmark_uneven, and of the two renderers of docs/integrating.md."""
+import re
+import statistics
 from collections import defaultdict
 
 from .google_benchmark import Report
@@ -74,3 +76,18 @@ def uneven(path):
     rows = [[size(n), set_.split(",")[0]] + [f"{times_[way] / times_['oracle-launches']:.2f}" for way in ways]
             for ((set_, kind), n), times_ in found.items() if kind == "index"]
     return table(["requests", "shaders", *(name.get(way, way) for way in ways)], rows)
+
+
+def integration(path):
+    """Milliseconds of a frame of the two renderers, as they print them: medians, least and most of several runs."""
+    frames = defaultdict(lambda: defaultdict(list))
+    for line in path.read_text(encoding="utf-8").splitlines():
+        name, scale, time = re.fullmatch(r"(\w+) scale (\d+): .* ([\d.]+) ms a frame", line).groups()
+        frames[int(scale)][name].append(float(time))
+    rows = []
+    for scale, found in sorted(frames.items()):
+        middle = {name: statistics.median(times_) for name, times_ in found.items()}
+        rows.append([f"{320 * scale} x {240 * scale}"] +
+                    [f"{middle[name]:.2f} ({min(found[name]):.2f} to {max(found[name]):.2f})" for name in ("sort", "grouped")] +
+                    [f"{middle['sort'] / middle['grouped']:.2f}"])
+    return table(["paths", "with the sort, ms", "with the library, ms", "times as fast"], rows)

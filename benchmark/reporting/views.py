@@ -77,6 +77,7 @@ VIEWS = {
     "own-times": own_kernels.times,
     "own-over": own_kernels.over,
     "own-uneven": own_kernels.uneven,
+    "own-integration": own_kernels.integration,
 }
 PLOTS = {
     "effects": lambda *paths: effects.plot(paths),
