@@ -48,23 +48,24 @@ DEFERRED_SHADE_HOST_DEVICE constexpr Shader const& shader_in(
   return slot.shader;
 }
 
-template <class T>
-inline constexpr char tag_of_type = 0;
+/// The position of the first type of a list that is `A`.
+template <class A, class... T>
+constexpr std::size_t position_of() {
+  bool const same[] = {std::is_same_v<A, T>...};
+  std::size_t position = 0;
+  while (!same[position]) ++position;
+  return position;
+}
 
-/// Which types of a list are equal. By constants: a template for each pair would take long to
-/// compile.
+/// Which types of a list are equal.
 template <class... T>
 struct equal_types {
   /// For the first of equal types, their number; for the others, 0.
   std::size_t count[sizeof...(T)] = {};
 
   constexpr equal_types() {
-    void const* const tags[] = {&tag_of_type<T>...};
-    for (std::size_t i = 0; i < sizeof...(T); ++i) {
-      std::size_t first = 0;
-      while (tags[first] != tags[i]) ++first;
-      ++count[first];
-    }
+    std::size_t const first[] = {detail::position_of<T, T...>()...};
+    for (std::size_t const position : first) ++count[position];
   }
 };
 
