@@ -32,7 +32,7 @@ void check_moved(std::string const& caller, request_order order, moved<T>... arr
     detail::fail<std::invalid_argument>("deferred_shade::" + caller +
                                         ": the permutation or an array is null");
   }
-  if (((arrays.from == arrays.to) || ...)) {
+  if (!((arrays.from != arrays.to) && ...)) {  // clang warns of == for a single array
     detail::fail<std::invalid_argument>("deferred_shade::" + caller +
                                         ": an array must not be moved to itself; keep it twice");
   }
