@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shaders here are of types that no other file has: there, shade() is compiled without checks.
+// Covers detail/expected_ids.hpp and detail/cuda/expected_ids.hpp.
 #define DEFERRED_SHADE_CHECKED
 #include <deferred_shade/shade.hpp>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Covers detail/moved.hpp, detail/cpu/gather.hpp and detail/cuda/gather.hpp.
 #include <deferred_shade/gather.hpp>
 #include <deferred_shade/grouping.hpp>
 

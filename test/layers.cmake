@@ -2,8 +2,8 @@
 # cmake -D SOURCE_DIR=... -P layers.cmake
 # Checks in which direction the headers of the library include each other: public -> detail -> detail/{cpu,cuda}, and
 # never back. A few public headers hold the words that all others speak; they may be included from everywhere.
-# Also checks that the umbrella reaches every header except the optional ones, and that no file of code is longer than
-# 250 lines, except one.
+# Also checks that the umbrella reaches every header except the optional ones, that every header has a test of its path
+# or a test that says "Covers" of it, and that no file of code is longer than 250 lines, except one.
 
 cmake_minimum_required(VERSION 3.22)
 
@@ -91,6 +91,22 @@ endforeach()
 foreach(header IN LISTS reached)
   if(header MATCHES "^(${optional})[.]hpp$")
     string(APPEND errors "\n  ${header}: optional, but deferred_shade.hpp reaches it")
+  endif()
+endforeach()
+
+set(covered "")
+file(GLOB_RECURSE tests "${SOURCE_DIR}/test/*.[ch]pp")
+foreach(test IN LISTS tests)
+  file(READ "${test}" text)
+  if(text MATCHES "\n(// Covers [^.]*[.][^\n]*(\n//[^\n]*)*)")
+    string(APPEND covered "${CMAKE_MATCH_1} ")
+  endif()
+endforeach()
+foreach(header IN LISTS headers)
+  string(REGEX REPLACE "[.]hpp$" "" name ${header})
+  string(FIND "${covered}" " ${header}" found)
+  if(found EQUAL -1 AND NOT EXISTS "${SOURCE_DIR}/test/${name}.cpp" AND NOT header STREQUAL "version.hpp")  # CMake reads that
+    string(APPEND errors "\n  ${header}: no test/${name}.cpp, and no test says that it covers it")
   endif()
 endforeach()
 

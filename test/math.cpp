@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Covers bits.hpp as well, which all of these functions rest on.
+// Covers detail/bits.hpp.
 #include <deferred_shade/math.hpp>
 
 #include <cmath>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A renderer's namespace may hold functions with the names of the library's own, and match calls
 // better: none of them is called for the renderer's types.
+// Covers deferred_shade.hpp and detail/system.hpp.
 #include <cstdint>
 #include <deferred_shade/deferred_shade.hpp>
 #include <vector>

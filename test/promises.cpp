@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `shade` promises of the machine that it runs on, on all systems for CPUs: the order in which
 // a worker starts requests, where it runs few of them, and how much of a stack it takes.
+// Covers detail/cpu/parallel_for.hpp.
 #include <deferred_shade/deferred_shade.hpp>
 
 #include <atomic>

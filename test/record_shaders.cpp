@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Covers detail/record_types.hpp.
 #include <deferred_shade/record_shaders.hpp>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Also the tests of counts.hpp, whose checks `shade` makes; statistics.cpp has the others.
+// Covers detail/checked_count.hpp.
 #include <deferred_shade/shade.hpp>
 
 #include <thrust/iterator/counting_iterator.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Covers detail/shader_list.hpp.
 #include <deferred_shade/shader_table.hpp>
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shaders of one type, which share their code, in tables with others.
+// Covers detail/shared_shader.hpp.
 #include <deferred_shade/schedule.hpp>
 #include <deferred_shade/shade.hpp>
 #include <deferred_shade/shader_table.hpp>

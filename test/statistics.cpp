@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Covers counts.hpp as well, and in a CUDA build cuda/host_copy.hpp, which brings ids to the host.
+// Covers detail/work.hpp and detail/cuda/host_copy.hpp.
 #include <deferred_shade/statistics.hpp>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Covers detail/cpu/tuning.hpp and detail/cuda/tuning.hpp.
 #include <deferred_shade/tuning.hpp>
 
 #include <cstdint>

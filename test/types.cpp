@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Covers detail/ids.hpp.
 #include <deferred_shade/types.hpp>
 
 #include <cstdint>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Covers detail/workspace_memory.hpp.
 #include <deferred_shade/workspace.hpp>
 
 #include <algorithm>

@@ -3,12 +3,7 @@
 
 #include <deferred_shade/config.hpp>  // first: it refuses what is too old
 
-#include <stdexcept>
-#include <type_traits>
-
-#include <deferred_shade/detail/checked_count.hpp>
 #include <deferred_shade/detail/cpu/gather.hpp>
-#include <deferred_shade/detail/fail.hpp>
 #include <deferred_shade/detail/moved.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/types.hpp>
@@ -22,9 +17,8 @@ namespace deferred_shade {
 /// for p from 0 to n - 1. What `to` holds from n on stays.
 ///
 /// - `exec`: as for `shade`. On CUDA, nothing waits for the stream or for the host.
-/// - `order`: of `group`, `groups.live()` for the requests that name a shader, or `groups.all()`;
-/// or
-///   any other one. Each request stands in it at most once.
+/// - `order`: `groups.live()`, the requests that name a shader, or `groups.all()`, of what `group`
+///   returns; or any other order, in which each request stands at most once.
 /// - `arrays`: a moved{from, to} for each array, of elements of any size and alignment that are
 ///   copied by bytes (is_copied_by_bytes). No `to` overlaps any array that is read.
 ///

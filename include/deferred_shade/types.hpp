@@ -41,7 +41,7 @@ device_count(Integer*, std::size_t) -> device_count<std::remove_const_t<Integer>
 ///
 /// Both arrays lie where the execution policy runs. With cpp, omp and tbb, the host may read them.
 /// With CUDA, they can be read when the work on the stream is done. `permutation[offsets[k]]` to
-/// `permutation[offsets[k + 1] - 1]` are the requests of shader k in the order in which they came;
+/// `permutation[offsets[k + 1] - 1]` are the requests of shader k in the order of the batch;
 /// `offsets` holds one entry more than the table has shaders. The entries of `permutation` from
 /// `offsets[shaders]` on are unspecified. `maximum` is an upper bound of the number of requests,
 /// for the host.
@@ -59,9 +59,9 @@ struct request_order {
 };
 
 /// All requests of a batch, grouped by shader, as `group` returns them: a view of memory that a
-/// workspace owns. It is a grouping, so that dispatches take it; and behind the segments of
-/// the shaders, from `offsets[shaders]` to `offsets[shaders + 1] - 1`, it has the requests that
-/// name no shader, in the order in which they came. `offsets[shaders + 1]` is the number of all
+/// workspace owns. Dispatches take it, because it is a grouping. A last segment follows those of
+/// the shaders, from `offsets[shaders]` to `offsets[shaders + 1] - 1`: the requests that name no
+/// shader. Every segment keeps the order of the batch. `offsets[shaders + 1]` is the number of all
 /// requests.
 struct request_groups : grouping {
   shader_id shaders;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // For a build with -fno-exceptions -fno-rtti. Without an argument, shades a batch and ends with 0.
 // With one, makes the error of that name, which must end the program after one line on stderr.
+// Covers detail/fail.hpp and config.hpp.
 #include <thrust/system/cpp/execution_policy.h>
 
 #include <csignal>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Covers detail/requirements.hpp.
 #pragma once
 
 #include <thrust/system/cpp/execution_policy.h>

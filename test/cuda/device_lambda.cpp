@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shaders that the host cannot call.
+// Covers detail/device_lambda.hpp.
 #include <deferred_shade/schedule.hpp>
 #include <deferred_shade/shade.hpp>
 

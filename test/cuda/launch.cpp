@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a shader says of its own launch, and what may be a shader or an iterator of ids.
+// Covers detail/cuda/launch.hpp, detail/cuda/occupancy.hpp and detail/cuda/call.hpp.
 #include <thrust/iterator/constant_iterator.h>
 #include <thrust/iterator/transform_iterator.h>
 #include <cstdint>

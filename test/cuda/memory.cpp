@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a workspace takes of a GPU's memory, from whom, and what happens when there is none left.
-// Covers cuda.hpp as well.
+// Covers cuda.hpp.
 #include <thrust/device_allocator.h>
 #include <thrust/mr/allocator.h>
 #include <thrust/mr/disjoint_pool.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a tool that attaches to NVTX sees. Needs NVTX's headers, but neither a GPU nor nvcc.
+// Covers nvtx.hpp.
 #include <deferred_shade/nvtx.hpp>
 
 #include <stdlib.h>  // unsetenv

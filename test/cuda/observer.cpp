@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // An observer of batches on a GPU, which puts events around the work of each phase.
-// Covers cuda/renumbered.hpp as well.
 #include <deferred_shade/observer.hpp>
 
 #include <cuda_runtime_api.h>

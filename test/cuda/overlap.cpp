@@ -2,6 +2,7 @@
 // Batches one right behind the other, between kernels of the renderer and with nothing in between
 // that would wait: from compute capability 9.0 on, their kernels overlap, and none may run ahead of
 // what it needs.
+// Covers detail/cuda/overlap.hpp.
 #include <cuda_runtime.h>
 #include <thrust/device_vector.h>
 #include <cstdint>

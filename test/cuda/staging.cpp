@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Record shaders: their requests and results may pass through shared memory, whatever their sizes.
+// Covers detail/cuda/staging.hpp and detail/cuda/staged_tiles.hpp.
 #include <cstdint>
 #include <vector>
 

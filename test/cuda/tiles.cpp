@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tiles of local_sort_then_dispatch and the windows of window_sort_then_dispatch on a GPU, on
 // both sides of each size of a table at which they are sorted, or their records moved, in another
-// way. Covers cuda/tile_rows.hpp as well.
+// way.
+// Covers detail/cuda/begin_tile.hpp, detail/cuda/dense_tiles.hpp, detail/cuda/tile.hpp,
+// detail/cuda/tile_rows.hpp, detail/cuda/tile_sort.hpp, detail/cuda/window.hpp and
+// detail/cuda/window_grouping.hpp.
 #include <cstdint>
 #include <deferred_shade/schedule.hpp>
 #include <vector>

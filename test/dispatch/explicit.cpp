@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Covers detail/cpu/explicit.hpp and detail/cuda/explicit.hpp.
 #include <deferred_shade/dispatch.hpp>
 
 #include "support/schedule_properties.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Covers dispatch.hpp, detail/cpu/implicit.hpp and detail/cuda/implicit.hpp.
 #include <deferred_shade/dispatch.hpp>
 
 #include <numeric>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// In a CUDA build, covers cuda/load_keys.hpp, rank_in_warp.hpp, thread_counts.hpp, tile_sort.hpp
-// and warp.hpp as well, by tables of all the sizes at which they count and rank in another way.
+// By tables of all the sizes at which buckets are counted and ranked in another way.
+// Covers grouping.hpp, detail/cpu/bucket.hpp, detail/cpu/prefetch.hpp, detail/cuda/bucket.hpp,
+// detail/cuda/bucket_tile.hpp, detail/cuda/counter_bucket.hpp, detail/cuda/lane_bucket.hpp,
+// detail/cuda/load_keys.hpp, detail/cuda/rank_in_warp.hpp, detail/cuda/sorted_bucket_tile.hpp,
+// detail/cuda/thread_counts.hpp and detail/cuda/warp.hpp.
 #include <deferred_shade/grouping.hpp>
 
 #include "support/grouping_properties.hpp"

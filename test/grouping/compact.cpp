@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Covers detail/cpu/compact.hpp and detail/cuda/compact.hpp.
 #include <deferred_shade/grouping.hpp>
 
 #include <bitset>

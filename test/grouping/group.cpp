@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Covers detail/counted_at_run_time.hpp and detail/cuda/copied_ids.hpp.
 #include <deferred_shade/dispatch.hpp>
 #include <deferred_shade/grouping.hpp>
 #include <deferred_shade/shader_table.hpp>

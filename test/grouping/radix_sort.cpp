@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Covers detail/cpu/radix_sort.hpp and detail/cuda/radix_sort.hpp.
 #include <deferred_shade/grouping.hpp>
 
 #include "support/grouping_properties.hpp"

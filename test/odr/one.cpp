@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Covers detail/cuda/architectures.hpp.
 #include <thrust/execution_policy.h>
 
 #include "../support/every_schedule.hpp"

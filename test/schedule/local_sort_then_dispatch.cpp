@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Covers schedule.hpp and detail/tile_sorts.hpp.
 #include <deferred_shade/schedule.hpp>
 
 #include "support/schedule_properties.hpp"

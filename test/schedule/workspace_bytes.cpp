@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Covers detail/cuda/workspace_bytes.hpp.
 #include <deferred_shade/schedule.hpp>
 
 #include <cstdint>

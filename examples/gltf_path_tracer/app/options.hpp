@@ -20,7 +20,7 @@ struct options {
   std::string scene;
   std::string output = "render.png";
   float exposure = 0;                  ///< stops by which a PNG is brighter
-  render_settings settings;            ///< but for `schedule`
+  render_settings settings;            ///< all except `schedule`
   std::vector<std::string> schedules;  ///< to render with, each once
   unsigned repeat = 1;                 ///< renderings with each schedule
   std::string report;                  ///< file for the JSON report; empty: none

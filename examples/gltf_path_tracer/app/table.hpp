@@ -22,7 +22,7 @@ struct measurement {
   std::vector<double> efficiency;          ///< by bounce
 };
 
-/// One for each schedule, in the order in which they first occur.
+/// One for each schedule, in the order of its first occurrence.
 std::vector<measurement> measurements_of(std::vector<run> const& runs);
 
 /// A table with a row for each schedule and no line of more than 80 characters: times to group, to

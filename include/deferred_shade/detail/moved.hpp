@@ -14,15 +14,12 @@
 namespace deferred_shade::detail {
 
 template <class Policy, class... T>
-inline constexpr bool can_move =
-    !std::is_void_v<system_of<Policy>> && (is_copied_by_bytes<T> && ... && true);
+inline constexpr bool can_move = requirements_of_exec<Policy>::met &&
+                                 (is_copied_by_bytes<T> && ... && true);
 
 /// What `gather` and `scatter` ask of their arguments.
 template <class Policy, class... T>
 void check_moved(std::string const& caller, request_order order, moved<T>... arrays) {
-  static_assert(!std::is_void_v<system_of<Policy>>,
-                "deferred_shade: exec must be an execution policy of Thrust's system cpp, omp, tbb "
-                "or, in code for nvcc, cuda; pass thrust::omp::par, for example");
   static_assert((is_copied_by_bytes<T> && ... && true),
                 "deferred_shade: elements of a moved array must be trivially copyable; specialise "
                 "is_copied_by_bytes for a type whose copy constructor only copies its bytes");

@@ -87,7 +87,7 @@ struct requirements_of_batch {
  private:
   using system = system_of<Policy>;
   static constexpr bool on_cuda = std::is_same_v<system, cuda_system>;
-  static constexpr bool exec = !std::is_void_v<system>;
+  static constexpr bool exec = requirements_of_exec<Policy>::met;
   static constexpr bool checked = exec && Checked;
 
   static constexpr bool n =
@@ -108,9 +108,6 @@ struct requirements_of_batch {
   static constexpr bool met =
       ids && takes && reserves && has_phases && reachable_by_gpu && reachable_by_cpu;
 
-  static_assert(exec,
-                "deferred_shade: exec must be an execution policy of Thrust's system cpp, omp, tbb "
-                "or, in code for nvcc, cuda; pass thrust::omp::par, for example");
   static_assert(!checked || n, "deferred_shade: n must be an integer or a device_count");
   using checked_ids = std::integral_constant<std::size_t, sizeof(requirements_of_ids<Ids>)>;
   static_assert(!ids || takes,

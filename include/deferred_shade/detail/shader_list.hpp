@@ -158,33 +158,30 @@ class shader_list {
     (void)(visit_type<First, First + Offsets>(id, f, leaf) || ...);
   }
 
-  // Whether `id` names a shader of the type of shader `Id`, which is visited then. Shaders of one
-  // type share one copy of the code, which the first of them stands for: compilers would make a
+  // Visits shader `id` if it is of the type of shader `Id`, and returns whether it is. Shaders of
+  // one type share one copy of the code, for which the first of them stands: compilers would make a
   // copy of each, and lanes in different copies do not run together.
   DEFERRED_SHADE_EXEC_CHECK_DISABLE
   template <shader_id First, shader_id Id, class Function, shader_id... Offsets>
   DEFERRED_SHADE_HOST_DEVICE bool visit_type(shader_id id, Function const& f,
                                              std::integer_sequence<shader_id, Offsets...>) const {
     constexpr equal_types<type_at<First + Offsets>...> types;
-    if constexpr (types.count[Id - First] == 1) {
+    if constexpr (!has<Id> || types.count[Id - First] == 0) {
+      return false;  // left out, or one before it stands for it
+    } else if constexpr (types.count[Id - First] == 1) {
       if (id != Id) return false;
-      if constexpr (has<Id>) f(get<Id>());
+      f(get<Id>());
       return true;
-    } else if constexpr (types.count[Id - First] > 1 && is_shared<type_at<Id>>) {
-      if (!((std::is_same_v<type_at<Id>, type_at<First + Offsets>> && id == First + Offsets) ||
-            ...)) {
-        return false;
-      }
-      f(get<Id>().with_id(id));
-      return true;
-    } else if constexpr (types.count[Id - First] > 1) {
+    } else if constexpr (is_shared<type_at<Id>>) {
+      bool const is_one_of_them =
+          ((std::is_same_v<type_at<Id>, type_at<First + Offsets>> && id == First + Offsets) || ...);
+      if (is_one_of_them) f(get<Id>().with_id(id));
+      return is_one_of_them;
+    } else {
       type_at<Id> const* shader = nullptr;
       (choose<First + Offsets>(id, shader), ...);
-      if (shader == nullptr) return false;
-      if constexpr (has<Id>) f(*shader);
-      return true;
-    } else {
-      return false;  // one before it stands for it
+      if (shader != nullptr) f(*shader);
+      return shader != nullptr;
     }
   }
 

@@ -36,4 +36,13 @@ void find_system(...);
 template <class Policy>
 using system_of = decltype(detail::find_system(std::declval<Policy const&>()));
 
+/// What every function asks of its execution policy.
+template <class Policy>
+struct requirements_of_exec {
+  static constexpr bool met = !std::is_void_v<system_of<Policy>>;
+  static_assert(met,
+                "deferred_shade: exec must be an execution policy of Thrust's system cpp, omp, tbb "
+                "or, in code for nvcc, cuda; pass thrust::omp::par, for example");
+};
+
 }  // namespace deferred_shade::detail

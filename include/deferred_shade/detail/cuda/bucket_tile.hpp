@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include <deferred_shade/detail/cuda/architectures.hpp>
-#include <deferred_shade/detail/cuda/load_keys.hpp>
+#include <deferred_shade/detail/cuda/copied_ids.hpp>
 #include <deferred_shade/detail/cuda/thread_counts.hpp>
 #include <deferred_shade/detail/cuda/tuning.hpp>
 #include <deferred_shade/detail/cuda/warp.hpp>

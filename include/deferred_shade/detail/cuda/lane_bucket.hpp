@@ -8,6 +8,7 @@
 
 #include <deferred_shade/detail/cuda/architectures.hpp>
 #include <deferred_shade/detail/cuda/bucket_tile.hpp>
+#include <deferred_shade/detail/cuda/copied_ids.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
 #include <deferred_shade/detail/cuda/sorted_bucket_tile.hpp>
 #include <deferred_shade/detail/cuda/tuning.hpp>

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include <deferred_shade/detail/cuda/architectures.hpp>
+#include <deferred_shade/detail/cuda/copied_ids.hpp>
 #include <deferred_shade/detail/cuda/lane_bucket.hpp>
 #include <deferred_shade/detail/cuda/launch.hpp>
 #include <deferred_shade/detail/cuda/tuning.hpp>
