@@ -14,12 +14,12 @@
 namespace deferred_shade::detail {
 
 template <class Policy, class... T>
-inline constexpr bool can_move = requirements_of_exec<Policy>::met &&
-                                 (is_copied_by_bytes<T> && ... && true);
+inline constexpr bool can_move = has_system<Policy> && (is_copied_by_bytes<T> && ... && true);
 
 /// What `gather` and `scatter` ask of their arguments.
 template <class Policy, class... T>
 void check_moved(std::string const& caller, request_order order, moved<T>... arrays) {
+  static_cast<void>(requirements_of_exec<Policy>());
   static_assert((is_copied_by_bytes<T> && ... && true),
                 "deferred_shade: elements of a moved array must be trivially copyable; specialise "
                 "is_copied_by_bytes for a type whose copy constructor only copies its bytes");

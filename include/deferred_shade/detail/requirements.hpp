@@ -81,18 +81,15 @@ constexpr shader_id last_id() {
   return present.count == 0 ? 0 : present.ids[present.count - 1];
 }
 
-/// What every function that runs or groups a batch asks. `Checked`: what was checked before holds.
-template <bool Checked, class Policy, class Count, class Ids, class Workspace>
-struct requirements_of_batch {
- private:
-  using system = system_of<Policy>;
-  static constexpr bool on_cuda = std::is_same_v<system, cuda_system>;
-  static constexpr bool exec = requirements_of_exec<Policy>::met;
-  static constexpr bool checked = exec && Checked;
+// Facts and assertions are apart: clang takes no constant of a class in which an assertion failed.
 
+/// What is so of a batch. `Checked`: what was checked before holds.
+template <bool Checked, class Policy, class Count, class Ids, class Workspace>
+struct facts_of_batch {
+  static constexpr bool on_cuda = std::is_same_v<system_of<Policy>, cuda_system>;
+  static constexpr bool checked = has_system<Policy> && Checked;
   static constexpr bool n =
       is_device_count<Count> || (std::is_integral_v<Count> && !std::is_same_v<Count, bool>);
-
   static constexpr bool ids = checked && n && has_ids<Ids> && are_ids<Ids>();
 
   static constexpr bool takes = has_take<Workspace>;
@@ -103,27 +100,35 @@ struct requirements_of_batch {
   static constexpr bool reachable_by_gpu = !on_cuda || !is_on_host<allocator>;
   static constexpr bool reachable_by_cpu = on_cuda || !is_on_device<allocator>;
 
- public:
-  static constexpr bool has_good_ids = ids;
   static constexpr bool met =
       ids && takes && reserves && has_phases && reachable_by_gpu && reachable_by_cpu;
+};
 
-  static_assert(!checked || n, "deferred_shade: n must be an integer or a device_count");
+/// What every function that runs or groups a batch asks.
+template <bool Checked, class Policy, class Count, class Ids, class Workspace>
+struct requirements_of_batch {
+ private:
+  using fact = facts_of_batch<Checked, Policy, Count, Ids, Workspace>;
+  using checked_exec = std::integral_constant<std::size_t, sizeof(requirements_of_exec<Policy>)>;
   using checked_ids = std::integral_constant<std::size_t, sizeof(requirements_of_ids<Ids>)>;
-  static_assert(!ids || takes,
+  static constexpr bool ids = fact::ids;
+
+  static_assert(!fact::checked || fact::n,
+                "deferred_shade: n must be an integer or a device_count");
+  static_assert(!ids || fact::takes,
                 "deferred_shade: scratch must be a workspace that is not const, or have its member "
                 "take(elements<T>...); workspace.hpp says what it does");
-  static_assert(!ids || !takes || reserves,
+  static_assert(!ids || !fact::takes || fact::reserves,
                 "deferred_shade: scratch must be a workspace, or have its member reserve(n, "
                 "shaders); workspace.hpp says what it does");
   static_assert(
-      !ids || !takes || !reserves || has_phases,
+      !ids || !fact::takes || !fact::reserves || fact::has_phases,
       "deferred_shade: scratch must be a workspace, or have its member begin_phase(phase) "
       "const, which returns an object; workspace.hpp says what it does");
-  static_assert(reachable_by_gpu,
+  static_assert(fact::reachable_by_gpu,
                 "deferred_shade: scratch must have memory that the GPU reaches, not "
                 "std::allocator's; write deferred_shade::workspace scratch{exec}");
-  static_assert(reachable_by_cpu,
+  static_assert(fact::reachable_by_cpu,
                 "deferred_shade: scratch must have memory that the CPU reaches, not that of a "
                 "cuda_allocator; write deferred_shade::workspace scratch{exec}");
 };
@@ -131,8 +136,10 @@ struct requirements_of_batch {
 /// What `group` asks of its arguments.
 template <class Policy, class Count, class Ids, class Workspace>
 struct requirements_of_group {
-  static constexpr bool met = requirements_of_batch<true, Policy, Count, Ids, Workspace>::met;
-  using value = std::bool_constant<met>;  // which clang computes here, and no later
+  static constexpr bool met = facts_of_batch<true, Policy, Count, Ids, Workspace>::met;
+  using checked_batch =
+      std::integral_constant<std::size_t,
+                             sizeof(requirements_of_batch<true, Policy, Count, Ids, Workspace>)>;
 };
 
 /// What functions ask of their arguments.
@@ -142,9 +149,13 @@ struct requirements_of_shade {
   static constexpr bool on_cuda = std::is_same_v<system_of<Policy>, cuda_system>;
   static constexpr bool callable = all_of<is_callable<Shaders>::value...>();
   static constexpr bool on_machine = on_cuda || all_of<!is_device_lambda<Shaders>...>();
-  using batch = requirements_of_batch<callable && on_machine, Policy, Count, Ids, Workspace>;
+  static constexpr bool checked = callable && on_machine;
+  using batch = facts_of_batch<checked, Policy, Count, Ids, Workspace>;
+  using checked_batch =
+      std::integral_constant<std::size_t,
+                             sizeof(requirements_of_batch<checked, Policy, Count, Ids, Workspace>)>;
   static constexpr bool wide_enough() {
-    if constexpr (batch::has_good_ids) {
+    if constexpr (batch::ids) {
       return detail::largest_id_of<Ids>() >= detail::last_id<Shaders...>();
     } else {
       return true;

@@ -36,11 +36,13 @@ void find_system(...);
 template <class Policy>
 using system_of = decltype(detail::find_system(std::declval<Policy const&>()));
 
+template <class Policy>
+inline constexpr bool has_system = !std::is_void_v<system_of<Policy>>;
+
 /// What every function asks of its execution policy.
 template <class Policy>
 struct requirements_of_exec {
-  static constexpr bool met = !std::is_void_v<system_of<Policy>>;
-  static_assert(met,
+  static_assert(has_system<Policy>,
                 "deferred_shade: exec must be an execution policy of Thrust's system cpp, omp, tbb "
                 "or, in code for nvcc, cuda; pass thrust::omp::par, for example");
 };
