@@ -70,15 +70,15 @@ struct variants {
 
 namespace detail {
 
-/// Calls `run(table)` with the shaders of variant number `chosen`, or with the whole table if there
+/// Calls `f(table)` with the shaders of variant number `chosen`, or with the whole table if there
 /// is no such variant.
 template <class... Variants, class Table, class Function>
 void with_variant(variants<Variants...>, std::size_t chosen, Table const& shaders,
-                  Function const& run) {
+                  Function const& f) {
   std::size_t number = 0;
   bool const ran =
-      ((chosen == number++ && (run(variant_traits<Variants>::table(shaders)), true)) || ...);
-  if (!ran) run(shaders);
+      ((chosen == number++ && (f(variant_traits<Variants>::table(shaders)), true)) || ...);
+  if (!ran) f(shaders);
 }
 
 }  // namespace detail
