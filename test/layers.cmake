@@ -7,7 +7,7 @@
 
 cmake_minimum_required(VERSION 3.22)
 
-set(words "config|version|types|cuda|shader_traits|shader_table|record_shaders|workspace|observer")
+set(words "config|version|types|cuda|shader_traits|shader_table|record_shaders|workspace|observer|items")
 set(optional "specialized|math|nvtx")  # not in the umbrella
 # Where a header stands, and what it may include.
 set(room_cpu "detail/cpu/")

@@ -6,8 +6,11 @@
 #include <deferred_shade/dispatch.hpp>
 #include <deferred_shade/gather.hpp>
 #include <deferred_shade/grouping.hpp>
+#include <deferred_shade/items.hpp>
+#include <deferred_shade/loop.hpp>
 #include <deferred_shade/observer.hpp>
 #include <deferred_shade/record_shaders.hpp>
+#include <deferred_shade/run.hpp>
 #include <deferred_shade/schedule.hpp>
 #include <deferred_shade/shade.hpp>
 #include <deferred_shade/shader_table.hpp>

@@ -85,7 +85,7 @@ moved(From*, To*) -> moved<To>;
 /// A part of what a schedule does, as an observer is told of it: see `observed`. A renderer's own
 /// schedule may have phases by other names.
 struct phase {
-  char const* name;                       ///< "group", "dispatch" or, within it, "shader"
+  char const* name;                       ///< "run", "group", "dispatch" or, within it, "shader"
   std::optional<shader_id> shader{};      ///< its id, if the name is "shader"
   std::optional<std::size_t> requests{};  ///< their number, if the host knows it
 };

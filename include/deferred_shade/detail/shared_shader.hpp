@@ -23,6 +23,12 @@ class shared_shader {
     static_cast<void>(function_(id_, i));
   }
 
+  /// The same, and returns what the function returns.
+  DEFERRED_SHADE_EXEC_CHECK_DISABLE
+  DEFERRED_SHADE_HOST_DEVICE decltype(auto) result(request_index i) const {
+    return function_(id_, i);
+  }
+
   /// The one with that id, which need not be looked for.
   DEFERRED_SHADE_HOST_DEVICE shared_shader with_id(shader_id id) const {
     return shared_shader(function_, id);

@@ -46,6 +46,9 @@ inline constexpr std::size_t most_packed = 256;
 inline constexpr std::size_t small_segment = 16384;
 inline constexpr std::size_t small_chunk = 32;
 
+/// Items that a worker of depth_first takes at a time.
+inline constexpr std::size_t items_at_a_time = 64;
+
 /// The places of an order whose elements are moved at a time: their part of the permutation takes
 /// half of a first-level cache of 32 KiB.
 inline constexpr std::size_t moved_chunk = 4096;
@@ -80,6 +83,10 @@ struct cpu_tuning {
   /// Requests in a tile of local_sort_then_dispatch. Their ids and indices, 25 KiB, fit in the
   /// first- and second-level cache of a core.
   static constexpr request_index tile = 8192;
+
+  /// Slots that a worker of a loop uses, at most. With 256 bytes in each they fill a second-level
+  /// cache of 1 MiB.
+  static constexpr request_index slots_of_worker = 4096;
 
   /// A tile whose stretches of equal ids have at least this many requests on average is not sorted:
   /// there is little to gain.
