@@ -107,7 +107,7 @@ TEMPLATE_LIST_TEST_CASE("loops run any number of items through any number of slo
         check<TestType, 6>(loop, t, count, slots);
       }
     }
-    for (std::size_t const slots : {4095, 4096, 4097, 8192, 8193, 1 << 17}) {
+    for (std::size_t const slots : {4095U, 4096U, 4097U, 8192U, 8193U, 1U << 17}) {
       check<TestType, 6>(loop, t, 9000, slots);
     }
     check<TestType, 6>(loop, t, 1000, 64, 0xffffffff00000000U);
