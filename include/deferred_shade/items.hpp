@@ -3,9 +3,9 @@
 
 #include <deferred_shade/config.hpp>  // first: it refuses what is too old
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <cuda/atomic>
 
 namespace deferred_shade {
 
@@ -20,47 +20,31 @@ enum class stop_when : std::uint32_t {
   round_ended   ///< after this round; items that have begun and not ended are given up
 };
 
-/// What a running loop tells, and can be told, without waiting for it. It lies in memory that the
-/// host and the execution policy reach: anywhere on a CPU, and in pinned or managed memory with
-/// CUDA. Any thread may call its functions at any time.
+/// What a running loop tells, and can be told, without waiting for it. Any thread may call its
+/// functions at any time.
 class run_control {
  public:
   /// Asks the loop to end. A loop that starts afterwards heeds it as well, until stop_when::never.
-  void stop(stop_when when) noexcept { flag(stop_).store(when, ::cuda::std::memory_order_relaxed); }
-  stop_when stops() const noexcept { return flag(stop_).load(::cuda::std::memory_order_relaxed); }
+  void stop(stop_when when) noexcept { stop_.store(when, std::memory_order_relaxed); }
+  stop_when stops() const noexcept { return stop_.load(std::memory_order_relaxed); }
 
   /// The items that have begun since `run` was called: the first ones of its items, without gaps.
-  item_index begun() const noexcept {
-    return number(begun_).load(::cuda::std::memory_order_acquire);
-  }
+  item_index begun() const noexcept { return begun_.load(std::memory_order_acquire); }
   /// The items that have ended since `run` was called. If a loop was stopped by items_ended, or by
   /// nothing, begun() and ended() are equal when it returns.
-  item_index ended() const noexcept {
-    return number(ended_).load(::cuda::std::memory_order_acquire);
-  }
+  item_index ended() const noexcept { return ended_.load(std::memory_order_acquire); }
 
   // For loops. `run` calls `start`.
   void start() noexcept {
-    number(begun_).store(0, ::cuda::std::memory_order_relaxed);
-    number(ended_).store(0, ::cuda::std::memory_order_relaxed);
+    begun_.store(0, std::memory_order_relaxed);
+    ended_.store(0, std::memory_order_relaxed);
   }
-  void add_begun(item_index n) noexcept {
-    number(begun_).fetch_add(n, ::cuda::std::memory_order_release);
-  }
-  void add_ended(item_index n) noexcept {
-    number(ended_).fetch_add(n, ::cuda::std::memory_order_release);
-  }
+  void add_begun(item_index n) noexcept { begun_.fetch_add(n, std::memory_order_release); }
+  void add_ended(item_index n) noexcept { ended_.fetch_add(n, std::memory_order_release); }
 
  private:
-  template <class T>
-  using reference = ::cuda::atomic_ref<T, ::cuda::thread_scope_system>;
-  static reference<item_index> number(item_index& n) noexcept { return reference<item_index>(n); }
-  static reference<stop_when> flag(stop_when& f) noexcept { return reference<stop_when>(f); }
-
-  // An atomic_ref is of a type without const.
-  mutable item_index begun_ = 0;
-  mutable item_index ended_ = 0;
-  mutable stop_when stop_ = stop_when::never;
+  std::atomic<item_index> begun_{0}, ended_{0};
+  std::atomic<stop_when> stop_{stop_when::never};
 };
 
 /// The items of a loop, and the slots through which they pass.
