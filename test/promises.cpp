@@ -26,6 +26,7 @@ namespace {
 
 namespace ds = deferred_shade;
 
+#if !defined(DEFERRED_SHADE_TEST_SANITIZED) || defined(DEFERRED_SHADE_TEST_TBB)
 struct adding_shader {
   std::uint32_t id;
   std::uint32_t* sums;
@@ -39,6 +40,7 @@ auto adding_table(std::uint32_t* sums) {
       },
       std::make_integer_sequence<std::uint32_t, Shaders>());
 }
+#endif
 
 }  // namespace
 
