@@ -2,7 +2,7 @@
 // Loops over random state machines, beside a plain loop over items.
 // Covers loop.hpp, items.hpp, detail/requirements_of_run.hpp, detail/stage_shaders.hpp,
 // detail/cpu/item_source.hpp, detail/cpu/loops.hpp, detail/cpu/pool.hpp, detail/cpu/rounds.hpp and
-// detail/cpu/workers.hpp.
+// detail/cpu/worker_workspace.hpp.
 #include <deferred_shade/run.hpp>
 
 #include <cstring>
@@ -11,7 +11,6 @@
 
 #include "catch.hpp"
 #include "support/backends.hpp"
-#include "support/every_schedule.hpp"
 #include "support/random_ids.hpp"
 #include "support/state_machine.hpp"
 
@@ -115,7 +114,7 @@ TEMPLATE_LIST_TEST_CASE("loops run any number of items through any number of slo
   });
 }
 
-TEST_CASE("a table of thousands of stages runs", "[run]") {
+TEST_CASE("a table of hundreds of stages runs", "[run]") {
   auto const seed = test::run_seed();
   CAPTURE(seed);
   constexpr ds::shader_id stages = 300;  // ids of 16 bits

@@ -71,10 +71,10 @@ struct depth_first {
   }
 };
 
-/// The stages as shaders, for a renderer that runs rounds by itself: shader k of this table runs
-/// stage k on request i and stores the id of its next stage in next[i]. An id outside the table
-/// becomes the table's size. `shade` must not read its ids from `next`: a schedule may read an id
-/// again after the request has run.
+/// The stages as shaders, for a renderer that runs rounds by itself on a CPU: shader k of this
+/// table runs stage k on request i and stores the id of its next stage in next[i]. An id outside
+/// the table becomes the table's size. `shade` must not read its ids from `next`: a schedule may
+/// read an id again after the request has run.
 ///
 ///     ds::shade(exec, schedule, n, ids, ds::stepping(stages, next), scratch);
 template <class... Stages, class Id>

@@ -25,10 +25,8 @@ namespace deferred_shade {
 ///   run_control.
 /// - `begin`: `begin(slot, k)` makes `slot` the request of item `k`, and returns the id of its
 ///   first stage.
-/// - `stages`: a table of stages. What `shade` asks of shaders, `run` asks of stages: they are
-/// cheap
-///   to copy, run concurrently, do not throw, and write only what belongs to their own slot or
-///   item.
+/// - `stages`: a table of stages. As shaders, they are cheap to copy, run concurrently, do not
+///   throw, and write only what belongs to their own slot or item.
 /// - `scratch`: a workspace, an `observed` or `tuned` one included. It is reserved for what the
 ///   loop needs; nothing is allocated once it has seen as many slots.
 ///

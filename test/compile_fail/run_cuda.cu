@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A loop on a GPU, where `run` has none.
 // errors: 1
-// error: run must have an exec for a CPU; for CUDA, call shade for every round, with
-// stepping\(stages, next\)
+// error: run must have an exec for a CPU; for CUDA, call shade in a loop
 #include <thrust/system/cpp/execution_policy.h>
 
 #include "cuda.hpp"

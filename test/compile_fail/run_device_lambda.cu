@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A lambda for the device alone, which is to be a stage on a CPU.
 // errors: 1
-// error: a stage that is a lambda for __device__ alone must have an exec for CUDA; write
+// error: a stage must not be a lambda for __device__ alone; write
 #include <thrust/system/cpp/execution_policy.h>
 
 #include "cuda.hpp"

@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <cstdint>
-#include <cstring>
 #include <random>
 #include <utility>
 #include <vector>
@@ -23,13 +22,13 @@ inline std::uint32_t mixed(std::uint32_t x) {
   return x ^ (x >> 16);
 }
 
-/// What stages go from where to where: `row[k * 8 + r]` is the stage after stage k for a random r,
+/// Which stage follows which: `row[k * 8 + r]` is the stage after stage k for a random r,
 /// and `first[r]` the first one. Ids at or above `stages` end an item.
 struct transitions {
   std::uint32_t stages;
   std::vector<std::uint32_t> row, first;
 
-  /// `ending`: how many of 8 transitions end an item, at least 1 from some stage on each way.
+  /// `ending`: about how many of 8 transitions end an item. If none does, the number of steps does.
   transitions(std::uint32_t count, std::uint32_t ending, std::uint32_t seed)
       : stages(count), row(count * 8), first(8) {
     std::mt19937 engine(seed);

@@ -45,11 +45,11 @@ struct requirements_of_run {
   using value = std::bool_constant<met>;  // which clang computes here, and no later
 
   static_assert(!exec || on_cpu,
-                "deferred_shade: run must have an exec for a CPU; for CUDA, call shade for every "
-                "round, with stepping(stages, next)");
+                "deferred_shade: run must have an exec for a CPU; for CUDA, call shade in a "
+                "loop");
   static_assert(!on_cpu || on_machine,
-                "deferred_shade: a stage that is a lambda for __device__ alone must have an exec "
-                "for CUDA; write [=] __host__ __device__ (...)");
+                "deferred_shade: a stage must not be a lambda for __device__ alone; write [=] "
+                "__host__ __device__ (...)");
   static_assert(!on_machine || stages,
                 "deferred_shade: a stage must return the id of the next stage, an integer or an "
                 "enumerator of at most 32 bits; the sink of a record stage returns it from "

@@ -8,7 +8,6 @@
 #include <deferred_shade/detail/cpu/parallel_for.hpp>
 #include <deferred_shade/detail/cpu/pool.hpp>
 #include <deferred_shade/detail/cpu/tuning.hpp>
-#include <deferred_shade/detail/cpu/workers.hpp>
 #include <deferred_shade/detail/system.hpp>
 #include <deferred_shade/items.hpp>
 #include <deferred_shade/shader_table.hpp>
@@ -34,21 +33,16 @@ template <class Policy, class Workspace>
 worker_slots slots_of(Policy const& exec, items const& all, Workspace const&) {
   return {all.slots, detail::workers_of(exec), cpu_tuning_of<Workspace>::slots_of_worker};
 }
-/// The slots of one worker.
-template <class Policy, class Workspace>
-request_index slots_of_worker(Policy const& exec, items const& all, Workspace const& scratch) {
-  return detail::slots_of(exec, all, scratch).each;
-}
 
-/// Calls `f(pool, memory, source)` for each worker: with its slots, `bytes` of memory and the
+/// Calls `f(pool, memory, source)` for each worker: with its slots, `more_bytes` of memory and the
 /// items.
 template <class Policy, class Begin, class... Stages, class Workspace, class Function>
 void for_each_pool(Policy const& exec, items const& all, program<Begin, Stages...> const& what,
-                   Workspace& scratch, std::size_t bytes_of_slots, Function const& f) {
+                   Workspace& scratch, std::size_t more_bytes, Function const& f) {
   using key = typename program<Begin, Stages...>::key;
   worker_slots const slots = detail::slots_of(exec, all, scratch);
   std::size_t const keys = detail::array_bytes<key>(slots.each);
-  std::size_t const bytes = keys + bytes_of_slots;
+  std::size_t const bytes = keys + more_bytes;
   auto const [memory] = scratch.take(elements<std::byte>(slots.workers * bytes));
   item_source source(all, slots.workers);
   detail::parallel_for(exec, slots.workers, [&, first = memory](std::size_t worker) {

@@ -3,12 +3,16 @@
 
 #include <thrust/for_each.h>
 #include <thrust/iterator/counting_iterator.h>
+#include <thrust/system/omp/detail/execution_policy.h>
 #include <thrust/system/tbb/detail/execution_policy.h>
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
 #if __has_include(<tbb/task_arena.h>)
 // Its headers do not compile with macros of these names, which a renderer may have.
 #pragma push_macro("min")
@@ -39,13 +43,30 @@ std::true_type find_tbb(thrust::system::tbb::detail::execution_policy<Policy> co
 std::false_type find_tbb(...);
 template <class Policy>
 inline constexpr bool is_tbb = decltype(detail::find_tbb(std::declval<Policy const&>()))::value;
+template <class Policy>
+std::true_type find_omp(thrust::system::omp::detail::execution_policy<Policy> const&);
+std::false_type find_omp(...);
+template <class Policy>
+inline constexpr bool is_omp = decltype(detail::find_omp(std::declval<Policy const&>()))::value;
+
+/// The threads that a policy runs on.
+template <class Policy>
+std::size_t workers_of(Policy const&) {
+  int workers = 1;
+#ifdef _OPENMP
+  if constexpr (is_omp<Policy>) workers = omp_get_max_threads();
+#endif
+#if DEFERRED_SHADE_HAS_TBB
+  if constexpr (is_tbb<Policy>) workers = ::tbb::this_task_arena::max_concurrency();
+#endif
+  return static_cast<std::size_t>((std::max)(1, workers));
+}
 
 #if DEFERRED_SHADE_HAS_TBB
 /// Calls `f(i)` for i from 0 to `count` - 1. Each worker takes the next index that is left.
 template <class Policy, class Function>
 void parallel_for_tbb(Policy const& exec, std::size_t count, Function const& f) {
-  auto const workers =
-      static_cast<std::size_t>((std::max)(1, ::tbb::this_task_arena::max_concurrency()));
+  std::size_t const workers = detail::workers_of(exec);
   std::atomic<std::size_t> next{0};
   ::tbb::this_task_arena::isolate([&] {
     thrust::for_each_n(exec, thrust::counting_iterator<std::uint32_t>(0),

@@ -23,8 +23,7 @@ struct program {
 
   /// The stage that item `k` needs first in `slot`, or `none`.
   shader_id start(request_index slot, item_index k) const {
-    auto const id = static_cast<shader_id>(begin(slot, k));
-    return known(id < none ? id : none);
+    return known(static_cast<shader_id>(begin(slot, k)));
   }
 
   /// Runs stages on a slot to the end of its request. Returns whether it got there: a loop may be
@@ -34,13 +33,13 @@ struct program {
       if (source.must_end()) return false;
       shader_id next = none;
       stages.visit(id, [slot, &next](auto const& stage) { next = detail::run_stage(stage, slot); });
-      id = known(next < none ? next : none);
+      id = known(next);
     }
     return true;
   }
 
-  /// The same id, or `none` if no stage is expected there.
-  shader_id known(shader_id id) const { return id < none && !expected[id] ? none : id; }
+  /// The same id, or `none` if it names no stage that is expected.
+  shader_id known(shader_id id) const { return id < none && expected[id] ? id : none; }
 
   std::bitset<sizeof...(Stages)> expected = stages.expected();
 };

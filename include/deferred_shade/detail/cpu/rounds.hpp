@@ -12,7 +12,7 @@
 #include <deferred_shade/detail/cpu/item_source.hpp>
 #include <deferred_shade/detail/cpu/loops.hpp>
 #include <deferred_shade/detail/cpu/segment.hpp>
-#include <deferred_shade/detail/cpu/workers.hpp>
+#include <deferred_shade/detail/cpu/worker_workspace.hpp>
 #include <deferred_shade/detail/shader_subset.hpp>
 #include <deferred_shade/detail/stage_shaders.hpp>
 #include <deferred_shade/detail/system.hpp>
@@ -87,7 +87,7 @@ void run_wavefront(host_system here, Policy const& exec, Loop const& loop, items
   using key = typename Program::key;
   auto const alone = thrust::cpp::par;  // a worker runs the schedule by itself
   using schedule_bytes = bytes_of_schedule<decltype(loop.schedule), decltype(alone)>;
-  request_index const slots = detail::slots_of_worker(exec, all, scratch);
+  request_index const slots = detail::slots_of(exec, all, scratch).each;
   // Not on the stack, which may be small beside a large table.
   using waiting_stages = detail::waiting_stages<Program::none>;
   std::size_t const state = detail::array_bytes<waiting_stages>(1);
@@ -142,7 +142,7 @@ void run_fullest_first(host_system, Policy const& exec, items const& all, Progra
                        Workspace& scratch) {
   using stage_counts = detail::stage_counts<Program::none>;
   std::size_t const state = detail::array_bytes<stage_counts>(1);
-  request_index const slots = detail::slots_of_worker(exec, all, scratch);
+  request_index const slots = detail::slots_of(exec, all, scratch).each;
   detail::for_each_pool(exec, all, what, scratch, state + detail::array_bytes<request_index>(slots),
                         [&](auto& pool, std::byte* memory, item_source& source) {
                           auto& counts = *::new (static_cast<void*>(memory)) stage_counts{};

@@ -1,41 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <thrust/system/omp/detail/execution_policy.h>
-#include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <type_traits>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
 
-#include <deferred_shade/detail/cpu/parallel_for.hpp>
-#include <deferred_shade/detail/system.hpp>
+#include <deferred_shade/detail/workspace_memory.hpp>
 #include <deferred_shade/observer.hpp>
 #include <deferred_shade/workspace.hpp>
 
 namespace deferred_shade::detail {
-
-template <class Policy>
-std::true_type find_omp(thrust::system::omp::detail::execution_policy<Policy> const&);
-std::false_type find_omp(...);
-
-/// The threads that a policy runs on.
-template <class Policy>
-std::size_t workers_of(Policy const&) {
-#ifdef _OPENMP
-  if constexpr (decltype(detail::find_omp(std::declval<Policy const&>()))::value) {
-    return static_cast<std::size_t>((std::max)(1, omp_get_max_threads()));
-  }
-#endif
-#if DEFERRED_SHADE_HAS_TBB
-  if constexpr (is_tbb<Policy>) {
-    return static_cast<std::size_t>((std::max)(1, ::tbb::this_task_arena::max_concurrency()));
-  }
-#endif
-  return 1;
-}
 
 /// An allocator of one part of a larger array, and of memory of its own for those who need more.
 template <class T>
