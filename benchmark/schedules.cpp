@@ -23,13 +23,16 @@ struct shader_set {
 };
 
 std::vector<shader_set> shader_sets() {
-  return {{"3 simple", bench::rows_of<bench::shader_set<3, 0, 0>>()},
-          {"6 simple", bench::rows_of<bench::shader_set<6, 0, 0>>()},
-          {"2 simple + 2 procedural", bench::rows_of<bench::shader_set<2, 0, 2>>()},
-          {"3 simple + 2 procedural", bench::rows_of<bench::shader_set<3, 0, 2>>()},
-          {"11 moderate", bench::rows_of<bench::shader_set<0, 11, 0>>()},
-          {"12 mixed", bench::rows_of<bench::shader_set<2, 6, 4>>()},
-          {"32 mixed", bench::rows_of<bench::shader_set<8, 16, 8>>()}};
+  return {
+#ifndef BENCHMARK_ONE_TABLE
+      {"3 simple", bench::rows_of<bench::shader_set<3, 0, 0>>()},
+      {"6 simple", bench::rows_of<bench::shader_set<6, 0, 0>>()},
+      {"2 simple + 2 procedural", bench::rows_of<bench::shader_set<2, 0, 2>>()},
+      {"3 simple + 2 procedural", bench::rows_of<bench::shader_set<3, 0, 2>>()},
+      {"11 moderate", bench::rows_of<bench::shader_set<0, 11, 0>>()},
+      {"12 mixed", bench::rows_of<bench::shader_set<2, 6, 4>>()},
+#endif
+      {"32 mixed", bench::rows_of<bench::shader_set<8, 16, 8>>()}};
 }
 
 /// The batch of the cells that are running: consecutive cells share one.

@@ -22,7 +22,9 @@ struct backend {
 template <class... Sets>
 std::vector<backend> backends_of(effect_list<Sets...>) {
   return {
+#ifdef PATH_TRACER_HAS_CPP
       {"cpp", {render_cpp<Sets>...}},
+#endif
 #ifdef PATH_TRACER_HAS_OMP
       {"omp", {render_omp<Sets>...}},
 #endif

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#ifdef PATH_TRACER_HAS_CPP
+
 #include <thrust/system/cpp/execution_policy.h>
 
 #include "app/integrator.hpp"
@@ -16,3 +18,5 @@ template render_result render_cpp<variant_set<PATH_TRACER_VARIANT>>(host_scene c
                                                                     progress_function const&);
 
 }  // namespace path_tracer
+
+#endif
