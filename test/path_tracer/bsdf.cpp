@@ -78,6 +78,32 @@ TEST_CASE("samples fall where the density says, with the weight that value() giv
   });
 }
 
+TEST_CASE("directions longer than 1 by their rounding give numbers", "[bsdf]") {
+  for_each_bsdf([](char const* name, auto const& b) {
+    for (int ulps = -3; ulps <= 3; ++ulps)
+      for (std::uint32_t i = 0; i < 100; ++i) {
+        float const length = 1 + static_cast<float>(ulps) * 0x1p-23f;
+        vec3 const u = draw3(i), wo{0, 0, length};
+        CAPTURE(name, ulps, i);
+        bsdf_value const straight = b.value(wo, wo), aside = b.value(wo, polar(u.x, 6 * u.y));
+        bsdf_sample const s = b.sample(wo, u);
+        for (vec3 const& v : {straight.f_cos, aside.f_cos, s.weight})
+          REQUIRE(std::isfinite(v.x + v.y + v.z));
+        REQUIRE(std::isfinite(straight.pdf + aside.pdf + s.pdf));
+      }
+  });
+}
+
+TEST_CASE("the masking of sheen is that of a cosine of 1 for one that rounds above", "[bsdf]") {
+  for (float const alpha : {0.08f, 0.25f, 1.0f}) {
+    charlie const sheen{alpha};
+    CAPTURE(alpha);
+    REQUIRE(std::isfinite(sheen.lambda(1)));
+    CHECK(sheen.lambda(1 + 0x1p-23f) == sheen.lambda(1));
+    CHECK(sheen.lambda(1 + 0x1p-20f) == sheen.lambda(1));
+  }
+}
+
 TEST_CASE("reflection is reciprocal", "[bsdf]") {
   for_each_bsdf([](char const* name, auto const& b) {
     for (std::uint32_t i = 0; i < 500; ++i) {

@@ -89,10 +89,11 @@ struct charlie {
   real alpha;
 
   PT_HD real d(real cos_m) const {
-    real const sin_m = std::sqrt(glm::max(real(0), 1 - cos_m * cos_m));
+    real const sin_m = std::sqrt(glm::max(real(0), (1 - cos_m) * (1 + cos_m)));
     return (2 + 1 / alpha) * std::pow(sin_m, 1 / alpha) / (2 * pi);
   }
   PT_HD real lambda(real cos_w) const {
+    cos_w = glm::min(cos_w, real(1));  // the cosine of a rounded vector may be larger
     return cos_w < real(0.5) ? std::exp(fit(cos_w)) : std::exp(2 * fit(real(0.5)) - fit(1 - cos_w));
   }
   /// The reflected share f cos(theta_i), for a white lobe. The fit of the masking is valid down to
