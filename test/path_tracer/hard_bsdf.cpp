@@ -123,7 +123,6 @@ TEST_CASE("reflection is reciprocal for narrow lobes and at grazing angles", "[h
     check("metal", metal(r), alpha);
     check("plastic", plastic(r, vec3{1, 0.5f, 0.2f}), alpha);
     check("glass", glass(r, 1.5f), alpha);
-    check("clearcoat", coated(r, plastic(r, vec3{1}, 0.3f)), alpha);
     check("sheen", velvet(r, plastic(r, vec3{1})), alpha);
     check("brushed metal", brushed(r, 0.9f, vec3{1}, 1), alpha);
     check("brushed plastic", brushed(r, 0.3f, vec3{1}, 0), alpha);

@@ -17,6 +17,11 @@ struct coat_lobe {
     vec2 const e = tables->ggx(cos_theta, roughness);
     return factor * (real(0.04) * e.x + e.y);
   }
+  /// What is not reflected by Fresnel's term of the viewer, as the extension has it: not
+  /// reciprocal.
+  PT_HD real through(vec3 wo, vec3) const {
+    return 1 - factor * (real(0.04) + real(0.96) * schlick_weight(wo.z));
+  }
 
  private:
   PT_HD specular_lobe lobe() const {

@@ -20,6 +20,7 @@ struct sheen_lobe {
   PT_HD real albedo(real cos_theta) const {
     return max_component(color) * tables->sheen(cos_theta, roughness);
   }
+  PT_HD real through(vec3 wo, vec3 wi) const { return 1 - glm::max(albedo(wo.z), albedo(wi.z)); }
 };
 namespace effects {
 

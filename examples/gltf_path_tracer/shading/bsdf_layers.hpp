@@ -5,8 +5,8 @@
 
 namespace path_tracer {
 
-/// A lobe on top of a material. The material gets the light that the lobe leaves: the share min(1 -
-/// E(wo), 1 - E(wi)), as in KHR_materials_sheen. E is the albedo of the lobe.
+/// A lobe on top of a material. The material gets the share through(wo, wi) of the light, which the
+/// lobe leaves.
 template <class Lobe, class Base>
 struct bsdf_layered {
   Lobe lobe;
@@ -19,8 +19,7 @@ struct bsdf_layered {
     real const p = lobe_share(e);
     bsdf_value const top = lobe.value(wo, wi);
     bsdf_value const below = base.value(wo, wi);
-    real const through = 1 - glm::max(e, lobe.albedo(wi.z));
-    return {top.f_cos + through * below.f_cos, p * top.pdf + (1 - p) * below.pdf};
+    return {top.f_cos + lobe.through(wo, wi) * below.f_cos, p * top.pdf + (1 - p) * below.pdf};
   }
   PT_HD bsdf_sample sample(vec3 wo, vec3 u) const {
     bool const top = choose(lobe_share(lobe.albedo(wo.z)), u.z);
