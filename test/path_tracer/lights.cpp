@@ -76,6 +76,22 @@ TEST_CASE("light samples give a rectangle's closed-form irradiance", "[lights]")
   }
 }
 
+TEST_CASE("the density of a light sample is right for any power", "[lights]") {
+  // Powers from 1e-47 to 1e45: neither they nor their reciprocals are all in the range of a float.
+  for (float const size : {1e-10f, 1e-6f, 1.0f, 1e8f})
+    for (float const emission : {1e-27f, 1e-10f, 1.0f, 1e29f}) {
+      CAPTURE(size, emission);
+      scene const s =
+          scene_of({{{0, 0, 2 * size}, {0, 1.5f * size, 0}, {size, 0, 0}, 0}}, {vec3{emission}});
+      light_list const lights(s);
+      for (std::uint32_t i = 0; i < 20; ++i) {
+        light_sample const l = draw_light(s, lights, {0, 0, 0}, i);
+        double const d = double{l.distance}, area = 1.5 * double{size} * double{size};
+        REQUIRE_THAT(double{l.pdf}, WithinRel(d * d / double{l.wi.z} / area, 1e-4));
+      }
+    }
+}
+
 TEST_CASE("many lights of different power add up", "[lights]") {
   std::vector<quad> quads;
   std::vector<vec3> emissions;

@@ -86,7 +86,7 @@ light_list::light_list(scene const& s, estimator how) : how_(how) {
   double sum = 0;
   for (double const w : power) sum += w;
   if (entries_.empty()) return;
-  per_power_ = static_cast<real>(1 / sum);
+  root_per_power_ = static_cast<real>(std::sqrt(1 / sum));
   build_alias_table(entries_, power, sum);
 }
 
@@ -132,7 +132,7 @@ light_view light_list::view(scene const& s) const {
   result.sky = {s.sky.texels.data(), s.sky.width, s.sky.height, s.environment_intensity,
                 s.environment_rotation};
   result.sky_entries = sky_entries_.data();
-  result.per_power = per_power_;
+  result.root_per_power = root_per_power_;
   result.far_away = far_away_;
   result.how = how_;
   return result;

@@ -35,7 +35,7 @@ struct light_view {
   punctual_light const* punctual;
   environment_view sky;
   light_entry const* sky_entries;  ///< one for each of its texels
-  real per_power;                  ///< probability of a light per unit of its power
+  real root_per_power;             ///< its square: probability of a light per unit of its power
   estimator how;                   ///< which of two ways to find a light counts
   real far_away;                   ///< a distance that leaves the scene from anywhere in it
 };
@@ -53,7 +53,7 @@ class light_list {
  private:
   std::vector<light_entry> entries_, sky_entries_;
   std::uint32_t triangle_count_ = 0, sky_entry_ = 0;
-  real per_power_ = 0, far_away_ = 0;
+  real root_per_power_ = 0, far_away_ = 0;
   estimator how_ = estimator::mis;
 
   /// Fills sky_entries_; returns the integral of the environment's luminance over all directions.
@@ -77,7 +77,9 @@ struct light_sample {
 /// The density per solid angle with which sample_light finds a point of an emissive surface.
 PT_HD inline real light_pdf(light_view const& lights, material const& m, real distance2,
                             real cos_light) {
-  return lights.per_power * radiosity(m) * distance2 / cos_light;
+  // Of dim, small lights, the square itself is beyond the range of a float.
+  real const root = lights.root_per_power;
+  return radiosity(m) * root * distance2 * root / cos_light;
 }
 
 /// What a punctual light sends to `p` (KHR_lights_punctual).
