@@ -66,7 +66,7 @@ mutations = [
     if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return false;
     real const det = u + v + w;
     if (det == 0) return false;
-    real const t = (u * a.z + v * b.z + w * c.z) * shear_.z / det;
+    real const t = distance(triangle, (u * a.z + v * b.z + w * c.z) / det) * shear_.z;
     if (!(t > 0 && t < h.t)) return false;
     h = {t, {v / det, w / det}, triangle.primitive};
 """,
@@ -90,8 +90,8 @@ mutations = [
              "return glm::dot(world, geometric) == 2 ? world : position;",
              "no secondary ray meets the triangle that it starts on"),
     mutation("constant-offset", "scene/motion.hpp",
-             "return epsilon * (2 * max_component(reach) + 16 * max_component(extent));",
-             "return max_component(reach) < 0 ? max_component(extent) : real(1e-4);",
+             "real clearance = 2 * epsilon * glm::dot(normal, reach);",
+             "real clearance = glm::dot(normal, reach) < 0 ? real(0) : real(1e-4);",
              "a point near the origin of a huge tilted plane starts rays off it"),
     mutation("float-sum", "shading/sums.hpp", "total += glm::dvec3(v);", "total = glm::dvec3(vec3(total) + v);",
              "the mean of ten million samples is right to the last digit of a float"),

@@ -109,6 +109,36 @@ TEST_CASE("rays that leave a convex mesh meet nothing", "[hard]") {
     }
 }
 
+TEST_CASE("what hangs closely over a huge plane throws a shadow on it", "[hard]") {
+  // At heights of 8e-7 of the plane's size, and less over one along axes.
+  std::uint64_t const seed = 655;
+  fine_numbers n(seed);
+  material const plain;
+  scene_view view{};
+  view.materials = &plain;
+  for (int i = 0; i < 20000; ++i) {
+    bool const tilted = i % 2 == 0;
+    double const size = n.over_decades(1e-2, 1e6), height = size * (tilted ? 8e-7 : 1e-9);
+    glm::dvec3 const normal = tilted ? n.on_sphere() : glm::dvec3(0, 1, 0),
+                     u = glm::normalize(glm::cross(normal, n.on_sphere())),
+                     v = glm::cross(normal, u);
+    auto const at = [&](double x, double y, double z) { return vec3(x * u + y * v + z * normal); };
+    triangle const ground = make_triangle(at(-size, -size, 0), at(size, -size, 0), at(0, size, 0));
+    double const wide = size / 1000;  // of the same corner, so that it is rounded alike
+    triangle const above =
+        make_triangle(at(-wide, -wide, height), at(wide, -wide, height), at(0, wide, height));
+    vec2 const near{float(0.25 + 1e-5 * n.uniform()), float(0.5 + 1e-5 * n.uniform())};
+    surface const s = load_surface<every_effect>(view, ground, near, vec3(-normal));
+    vec3 const up(normal);
+    hit h;
+    h.t = INFINITY;
+    sheared_ray const shadow({s.start_towards(up), up, INFINITY});
+    CAPTURE(seed, i, size);
+    REQUIRE_FALSE(shadow.intersect(stored(ground), h));
+    REQUIRE(shadow.intersect(stored(above), h));
+  }
+}
+
 TEST_CASE("the start of a ray stays near the surface", "[hard]") {
   // A clearance is of use only as long as it is small against what it is next to.
   for (double const size : {1e-4, 1.0, 1e6})

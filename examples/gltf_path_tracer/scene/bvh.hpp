@@ -78,13 +78,33 @@ class sheared_ray {
     if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return false;
     real const det = u + v + w;
     if (det == 0) return false;
-    real const t = (u * a.z + v * b.z + w * c.z) * shear_.z / det;
+    real const t = distance(triangle, (u * a.z + v * b.z + w * c.z) / det) * shear_.z;
     if (!(t > 0 && t < h.t)) return false;
     h = {t, {v / det, w / det}, triangle.primitive};
     return true;
   }
 
  private:
+  /// The distance to the plane of a triangle, along z. By float's digits alone, it would be off by
+  /// those of the triangle's extent, and rays that start on a large triangle would meet it.
+  /// `about` is that distance without the last digits: it counts where the plane is seen edge-on.
+  PT_HD real distance(bvh_triangle const& triangle, real about) const {
+    if constexpr (sizeof(real) < sizeof(double)) {
+      glm::dvec3 corner[3];
+      for (int k = 0; k < 3; ++k) {
+        real const* const p = triangle.corner[k];
+        corner[k] = glm::dvec3(p[x_], p[y_], p[z_]) - glm::dvec3(origin_);
+      }
+      glm::dvec3 const n = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
+      double const slope = n.x * double{shear_.x} + n.y * double{shear_.y} + n.z;
+      double const exact = glm::dot(n, corner[0]) / slope;
+      double const low = glm::min(corner[0].z, glm::min(corner[1].z, corner[2].z));
+      double const high = glm::max(corner[0].z, glm::max(corner[1].z, corner[2].z));
+      return exact == exact ? static_cast<real>(glm::clamp(exact, low, high)) : about;
+    } else {
+      return about;
+    }
+  }
   PT_HD vec3 shifted(real const* p) const {
     return {p[x_] - origin_.x, p[y_] - origin_.y, p[z_] - origin_.z};
   }

@@ -25,14 +25,27 @@ PT_HD inline triangle triangle_at(triangle t, triangle_motion const& m, real tim
 }
 
 /// How far from a point of a triangle, along the normal, a ray must start to miss that triangle at
-/// any angle. The rounding error of the point grows with its coordinates, that of the intersection
-/// with the extent of the triangle.
+/// any angle: the rounding error along the normal of coordinates as large as those of its corners.
+/// The extent of the triangle does not count where rays are of float, see sheared_ray and point_of.
 PT_HD inline real clearance_of(triangle const& t) {
   vec3 const e1 = t.position[1] - t.position[0], e2 = t.position[2] - t.position[0];
+  vec3 const normal = glm::abs(glm::normalize(glm::cross(e1, e2)));
   vec3 const reach =
       glm::max(glm::abs(t.position[0]), glm::max(glm::abs(t.position[1]), glm::abs(t.position[2])));
-  vec3 const extent = glm::max(glm::max(glm::abs(e1), glm::abs(e2)), glm::abs(e2 - e1));
-  return epsilon * (2 * max_component(reach) + 16 * max_component(extent));
+  real clearance = 2 * epsilon * glm::dot(normal, reach);
+  if constexpr (sizeof(real) == sizeof(double)) {
+    vec3 const extent = glm::max(glm::max(glm::abs(e1), glm::abs(e2)), glm::abs(e2 - e1));
+    clearance += 16 * epsilon * max_component(extent);
+  }
+  return clearance;
+}
+
+/// A point of a triangle by the weights of its second and third corner, rounded once: the last
+/// digits of large edges do not move it off the plane.
+PT_HD inline vec3 point_of(triangle const& t, vec2 b) {
+  glm::dvec3 const p(t.position[0]);
+  return vec3(p + double{b.x} * (glm::dvec3(t.position[1]) - p) +
+              double{b.y} * (glm::dvec3(t.position[2]) - p));
 }
 
 /// Triangle number `primitive` at a time if `Set` has motion blur; else as it lies in memory.

@@ -111,8 +111,7 @@ PT_HD surface load_surface(scene_view const& scene, loaded_triangle<Set> t, vec2
                            vec3 direction) {
   real const b0 = 1 - b.x - b.y;
   surface s;
-  s.position = t.position[0] +
-               (b.x * (t.position[1] - t.position[0]) + b.y * (t.position[2] - t.position[0]));
+  s.position = point_of(t, b);
   s.uv = b0 * t.uv[0] + b.x * t.uv[1] + b.y * t.uv[2];
   s.material = t.material;
   s.geometric = geometric_normal(t);
