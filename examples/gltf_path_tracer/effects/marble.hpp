@@ -22,7 +22,8 @@ struct marble {
   }
   template <class Point>
   PT_HD static bsdf_matte bsdf(Point const& p) {
-    real const vein = marble_pattern(p.at.position * p.material.pattern_scale, p.scene.octaves);
+    real const vein = marble_pattern((p.at.position + p.scene.origin) * p.material.pattern_scale,
+                                     p.scene.octaves);
     return {glm::mix(p.color, p.material.second_color, vein)};
   }
 };

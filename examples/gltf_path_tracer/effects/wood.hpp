@@ -21,7 +21,8 @@ struct wood {
   }
   template <class Point>
   PT_HD static auto bsdf(Point const& p) {
-    real const ring = wood_pattern(p.at.position * p.material.pattern_scale, p.scene.octaves);
+    real const ring =
+        wood_pattern((p.at.position + p.scene.origin) * p.material.pattern_scale, p.scene.octaves);
     return p.plastic(glm::mix(p.color, p.material.second_color, ring));
   }
 };

@@ -58,6 +58,10 @@ class animations {
   std::vector<channel> channels_;
 };
 
+/// The centre of the meshes below these nodes, by the bounds that their accessors state, if it is
+/// far from the origin relative to their extent; else 0.
+glm::dvec3 centre_far_away(document const& d, std::vector<int> const& roots);
+
 /// Transform of a node to its parent. Throws std::runtime_error if it cannot be inverted.
 glm::dmat4 local_transform(document const& d, std::size_t node, pose const& animated = {});
 

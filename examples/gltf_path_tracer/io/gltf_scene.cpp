@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <stdexcept>
 
 #include "io/gltf.hpp"
@@ -18,7 +19,10 @@ class traversal {
 
   void run(std::vector<int> const& roots) {
     find_shutter(first_camera(roots));
-    push(roots, {glm::dmat4(1), glm::dmat4(1)});
+    centre_ = centre_far_away(document_, roots);
+    scene_.origin = vec3(centre_);
+    glm::dmat4 const to_centre = glm::translate(glm::dmat4(1), -centre_);
+    push(roots, {to_centre, to_centre});
     while (!stack_.empty()) {
       auto const [node, to_parent] = stack_.back();
       stack_.pop_back();
@@ -88,7 +92,7 @@ class traversal {
       if (!std::isfinite(determinant) || determinant == 0)
         throw std::runtime_error(where + ": its transform to world space has the determinant " +
                                  std::to_string(determinant));
-      if (!(glm::length(glm::dvec3(m[3])) <= farthest))
+      if (!(glm::length(glm::dvec3(m[3]) + centre_) <= farthest))
         throw std::runtime_error(where + ": lies more than 1e9 units from the origin");
     }
     glm::dmat4 const& to_world = place.open;
@@ -121,6 +125,7 @@ class traversal {
   std::vector<bool> seen_;
   std::vector<placed> stack_;
   bool has_camera_ = false;
+  glm::dvec3 centre_{0};  // of a scene far away: it is moved to the origin
 };
 
 scene make_scene(document& d) {

@@ -32,7 +32,8 @@ scene_view host_scene::view() const {
           {source.medium_scattering, source.medium_scattering + source.medium_absorption,
            source.medium_anisotropy},
           source.motion.empty() ? nullptr : source.motion.data(),
-          octaves};
+          octaves,
+          source.origin};
 }
 
 }  // namespace path_tracer

@@ -76,6 +76,7 @@ struct scene : scene_parts<all_effects> {
   std::vector<std::string> light_names;  ///< as the file has them; may be shorter
   camera view;
   vec3 background{0};
+  vec3 origin{0};                     ///< where the file has the origin of these coordinates
   std::vector<std::string> warnings;  ///< what the file asks for and the renderer leaves out
 };
 

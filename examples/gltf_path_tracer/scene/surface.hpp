@@ -24,6 +24,7 @@ struct scene_view {
   medium_view medium;
   triangle_motion const* motion;  ///< null: nothing moves
   int octaves;                    ///< of procedural textures, at most
+  vec3 origin;                    ///< of coordinates, in those of the file
 };
 
 PT_HD inline vec3 geometric_normal(triangle const& t) {
