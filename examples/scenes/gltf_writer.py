@@ -82,6 +82,7 @@ class Scene:
             strength = max(emission)
             material["emissiveFactor"] = [e / strength for e in emission]
             extensions["emissive_strength"] = {"emissiveStrength": strength}
+            extensions.setdefault("specular", {"specularFactor": 0.0})  # a lamp is matte
         if two_sided:
             material["doubleSided"] = True
         if extensions:

@@ -28,6 +28,7 @@ scene wall_and_lamp(material const& wall) {
   s.materials = {wall, material{}, material{}};
   s.material_names = {"wall", "lamp"};
   s.materials[1].emission = vec3{5};
+  s.materials[1].specular = 0;
   for (material& m : s.materials) choose_shader(m, effect_bits().set());
   add_quad(s, {-3, -3, -2}, {6, 0, 0}, {0, 6, 0}, 0);
   add_quad(s, {-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, 1);

@@ -58,7 +58,11 @@ TEST_CASE("a material runs the shader that fits it") {
   CHECK(kind("1", "0.3", glass) == shader_of<effects::metal>);
   CHECK(kind("0.6", "0.5", coat) == shader_of<effects::clearcoat>);
   CHECK(kind("0", "0.5", sheen) == shader_of<effects::sheen>);
-  CHECK(kind("0", "0.5", R"(, "emissiveFactor": [0, 0, 0.1])") == shader_of<effects::emitters>);
+  std::string const emissive = R"(, "emissiveFactor": [0, 0, 0.1])";
+  CHECK(kind("0", "0.5", specular0 + emissive) == shader_of<effects::emitters>);
+  CHECK(kind("0", "0.5", emissive) == shader_of<effects::plastic>);
+  CHECK(kind("1", "0.5", emissive) == shader_of<effects::metal>);
+  CHECK(kind("0", "0", glass + emissive) == shader_of<effects::smooth_glass>);
   CHECK(kind("0", "0.5", R"(, "extras": {"shader": "wood"})") == shader_of<effects::wood>);
   CHECK(kind("1", "0.5", R"(, "extras": {"shader": "marble"})") == shader_of<effects::marble>);
 }
@@ -97,6 +101,16 @@ TEST_CASE("factors of a material") {
   CHECK(m.normal_scale == 0.7f);
   CHECK(m.second_color == vec3(0.5f, 0.6f, 0.7f));
   CHECK(m.pattern_scale == 3);
+}
+
+TEST_CASE("an emissive texture is loaded, with its mean") {
+  material const m =
+      load_material(R"({"emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}})");
+  CHECK(m.emissive_texture == 0);
+  CHECK(m.base_color_texture == no_texture);
+  // Of red, green, blue and white.
+  for (int c = 0; c < 3; ++c) CHECK_THAT(m.mean_emissive[c], WithinAbs(0.5, 1e-6));
+  CHECK(load_material("{}").mean_emissive == vec3(1));
 }
 
 TEST_CASE("a primitive without a material has the default one") {
@@ -142,11 +156,11 @@ TEST_CASE("what is left out is named once for each kind") {
   f.at("/meshes/0/primitives/0/targets") = json::array();
   f.root["meshes"][0]["primitives"].push_back({{"mode", 0}, {"attributes", {{"POSITION", 0}}}});
   f.root["materials"] = json::parse(R"([
-    {"name": "a", "alphaMode": "MASK", "emissiveTexture": {"index": 0}, "extras": {"shader": "lava"},
+    {"name": "a", "alphaMode": "MASK", "occlusionTexture": {"index": 0}, "extras": {"shader": "lava"},
      "extensions": {"KHR_materials_unlit": {}, "KHR_materials_transmission":
        {"transmissionFactor": 0, "transmissionTexture": {"index": 0}}}},
-    {"name": "b", "emissiveTexture": {"index": 0}, "normalTexture": {"index": 0, "texCoord": 1},
-     "emissiveFactor": [1, 1, 1],
+    {"name": "b", "occlusionTexture": {"index": 0}, "normalTexture": {"index": 0, "texCoord": 1},
+     "extras": {"shader": "wood"},
      "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1}}}])");
   scene const s = load(f);
   for (std::string const& w : s.warnings) INFO(w);
@@ -158,7 +172,7 @@ TEST_CASE("what is left out is named once for each kind") {
   CHECK(warns(s, "\"targets\" (mesh 0 \"patch\") is left out"));
   CHECK(warns(s, "points (mesh 0 \"patch\", primitive 1) is left out"));
   CHECK(warns(s, "alphaMode MASK (material 0 \"a\") is left out"));
-  CHECK(warns(s, "\"emissiveTexture\" (material 0 \"a\" and 1 more) is left out"));
+  CHECK(warns(s, "\"occlusionTexture\" (material 0 \"a\" and 1 more) is left out"));
   CHECK(warns(s, "extras.shader \"lava\" (material 0 \"a\") is left out"));
   CHECK(warns(s, "extension KHR_materials_unlit (material 0 \"a\") is left out"));
   CHECK(warns(s, "\"transmissionTexture\" (material 0 \"a\") is left out"));

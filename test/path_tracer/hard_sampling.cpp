@@ -198,8 +198,8 @@ TEST_CASE("a lamp next to one a million times brighter lights as much as alone",
       for (int i = 0; i < n * n; ++i) {
         vec2 const place{(static_cast<float>(i % n) + 0.5f) / n,
                          (static_cast<float>(i / n) + 0.5f) / n};
-        light_sample const l =
-            sample_emitter(lights, t, s.materials[t.material], {0.2f, 0.2f, 0}, place);
+        light_sample const l = sample_emitter<every_effect>(lights, t, s.materials[t.material],
+                                                            {0.2f, 0.2f, 0}, place);
         sum += double{l.radiance.x} * double{l.wi.z} / double{l.pdf} / (n * n) *
                double{lights.entries[k].probability};
       }

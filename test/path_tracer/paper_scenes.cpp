@@ -28,13 +28,13 @@ struct paper_scene {
 
 std::vector<paper_scene> const& paper_scenes() {
   static std::vector<paper_scene> const scenes = {
-      {"3-simple", {"emitters", "metal", "matte"}},
-      {"6-simple", {"emitters", "smooth-glass", "metal", "matte", "plastic", "miss"}},
-      {"2-simple-2-procedural", {"emitters", "marble", "wood", "metal"}},
-      {"3-simple-2-procedural", {"emitters", "marble", "wood", "metal", "matte"}},
+      {"3-simple", {"metal", "emitters", "matte"}},
+      {"6-simple", {"smooth-glass", "metal", "emitters", "matte", "plastic", "miss"}},
+      {"2-simple-2-procedural", {"marble", "wood", "metal", "emitters"}},
+      {"3-simple-2-procedural", {"marble", "wood", "metal", "emitters", "matte"}},
       {"11-moderate",
-       {"emitters", "smooth-glass", "rough-glass", "clearcoat", "sheen", "iridescence",
-        "anisotropy", "metal", "matte", "plastic", "miss"}}};
+       {"smooth-glass", "rough-glass", "clearcoat", "sheen", "iridescence", "anisotropy", "metal",
+        "emitters", "matte", "plastic", "miss"}}};
   return scenes;
 }
 

@@ -81,7 +81,7 @@ TEST_CASE("the JSON report holds what was asked for and what was measured") {
   CHECK(second["bounces"][1]["requests"] == 50);
   CHECK(second["bounces"][0]["group_ms"] == 1.25);
   CHECK(second["bounces"][0]["efficiency"] == 0.98);
-  CHECK(second["bounces"][0]["first_batch_by_shader"] == json{{"emitters", 70}, {"marble", 30}});
+  CHECK(second["bounces"][0]["first_batch_by_shader"] == json{{"marble", 70}, {"wood", 30}});
 }
 
 TEST_CASE("progress is a line every ten percent where there is no terminal") {

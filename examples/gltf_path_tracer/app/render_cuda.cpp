@@ -32,6 +32,7 @@ class device_scene {
     view_.lights.motion = view_.motion;
     view_.lights.triangles = view_.triangles;
     view_.lights.materials = view_.materials;
+    view_.lights.textures = view_.textures;
     move(view_.tables, 1);
   }
 

@@ -33,7 +33,6 @@ struct effect_list {};
 /// All effects. Those with a shader come first: a material runs the first that fits it.
 // clang-format off
 using all_effects = effect_list<
-    effects::emitters,
     effects::marble,
     effects::wood,
     effects::smooth_glass,
@@ -43,6 +42,7 @@ using all_effects = effect_list<
     effects::iridescence,
     effects::anisotropy,
     effects::metal,
+    effects::emitters,
     effects::matte,
     effects::plastic,
     effects::medium,

@@ -43,13 +43,10 @@ constexpr bool has_leave_out<E, std::void_t<decltype(&E::template leave_out<scen
 /// Whether a material calls for an effect.
 template <class Effect>
 bool calls_for(material const& m) {
-  if constexpr (detail::has_shader<Effect>) {
-    return m.kind == shader_of<Effect>;
-  } else if constexpr (has_in_material<Effect>) {
-    return Effect::in_material(m);
-  } else {
-    return false;
-  }
+  bool calls = false;
+  if constexpr (detail::has_shader<Effect>) calls = m.kind == shader_of<Effect>;
+  if constexpr (has_in_material<Effect>) calls = calls || Effect::in_material(m);
+  return calls;
 }
 
 template <class Effect>

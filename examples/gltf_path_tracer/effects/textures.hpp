@@ -5,17 +5,20 @@
 
 namespace path_tracer::effects {
 
-/// Images for colour, roughness and metal.
+/// Images for colour, roughness, metal and emission.
 struct textures {
   static constexpr char const* name = "textures";
   struct material_part {
     std::int32_t base_color_texture = no_texture;
     std::int32_t metallic_roughness_texture = no_texture;
+    std::int32_t emissive_texture = no_texture;
+    vec3 mean_emissive{1};  ///< over the texels of that
   };
 
   template <class Material>
   static bool in_material(Material const& m) {
-    return m.base_color_texture != no_texture || m.metallic_roughness_texture != no_texture;
+    return m.base_color_texture != no_texture || m.metallic_roughness_texture != no_texture ||
+           m.emissive_texture != no_texture;
   }
 };
 

@@ -7,6 +7,7 @@
 
 #include "io/gltf_parts.hpp"
 #include "io/gltf_properties.hpp"
+#include "scene/texture.hpp"
 
 namespace path_tracer::gltf {
 namespace {
@@ -34,6 +35,8 @@ class material_reader {
     m.metallic_roughness_texture =
         add_texture(from, "/pbrMetallicRoughness/metallicRoughnessTexture", false);
     m.normal_texture = add_texture(from, "/normalTexture", false);
+    m.emissive_texture = add_texture(from, "/emissiveTexture", true);
+    if (m.emissive_texture != no_texture) m.mean_emissive = mean_of(m.emissive_texture);
     read_parts(from, m);
     choose(m);
     if (value_at(from, "/alphaMode", std::string("OPAQUE")) != "OPAQUE")
@@ -114,6 +117,21 @@ class material_reader {
     }
     scene_.textures.push_back(t);
     return known->second = static_cast<std::int32_t>(scene_.textures.size() - 1);
+  }
+
+  /// The mean colour of a texture, linear.
+  vec3 mean_of(std::int32_t index) const {
+    texture const& t = scene_.textures[static_cast<std::size_t>(index)];
+    std::size_t const texels = std::size_t{t.width} * t.height;
+    std::size_t counts[3][256] = {};
+    for (std::size_t i = 0; i < texels; ++i)
+      for (int c = 0; c < 3; ++c) ++counts[c][scene_.texels[t.offset + i] >> (8 * c) & 255u];
+    glm::dvec3 sum(0);
+    for (int code = 0; code < 256; ++code)
+      for (int c = 0; c < 3; ++c)
+        sum[c] += static_cast<double>(counts[c][code]) *
+                  double{srgb_to_linear(static_cast<real>(code) / real(255))};
+    return vec3(sum / static_cast<double>(texels));
   }
 
   std::uint8_t wrap_mode(int mode) const {

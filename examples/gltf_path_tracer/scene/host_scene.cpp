@@ -21,11 +21,14 @@ host_scene::host_scene(scene const& s, accuracy_settings const& accuracy)
       linear(srgb_table()) {}
 
 scene_view host_scene::view() const {
+  texture_view const textures{source.textures.data(), source.texels.data(), linear.data()};
+  light_view all_lights = lights.view(source);
+  all_lights.textures = textures;
   return {hierarchy.view(),
           source.triangles.data(),
           source.materials.data(),
-          {source.textures.data(), source.texels.data(), linear.data()},
-          lights.view(source),
+          textures,
+          all_lights,
           &host_albedo_tables(),
           source.view,
           source.background,

@@ -52,7 +52,7 @@ light_list::light_list(scene const& s, estimator how) : how_(how) {
       upper = glm::max(upper, p);
     }
     material const& m = s.materials[t.material];
-    if (how == estimator::bsdf || m.kind != shader_of<effects::emitters>) continue;
+    if (how == estimator::bsdf || !effects::emitters::in_material(m)) continue;
     double const w = double{radiosity(m)} * area(t);
     if (!(w > 0)) continue;
     entries_.push_back({1, 0, 0, i});

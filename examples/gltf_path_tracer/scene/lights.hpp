@@ -9,6 +9,7 @@
 #include "scene/math.hpp"
 #include "scene/motion.hpp"
 #include "scene/scene.hpp"
+#include "scene/texture.hpp"
 #include "shading/accuracy.hpp"
 
 namespace path_tracer {
@@ -33,6 +34,7 @@ struct light_view {
   material const* materials;
   triangle_motion const* motion;  ///< null: nothing moves
   punctual_light const* punctual;
+  texture_view textures;
   environment_view sky;
   light_entry const* sky_entries;  ///< one for each of its texels
   real root_per_power;             ///< its square: probability of a light per unit of its power
@@ -60,9 +62,19 @@ class light_list {
   double list_sky(scene const& s);
 };
 
-/// Power per unit area of an emissive surface.
+/// Power per unit area of an emissive surface, by the mean of its texture.
 PT_HD inline real radiosity(material const& m) {
-  return pi * luminance(m.emission) * (m.two_sided ? real(2) : real(1));
+  return pi * luminance(m.emission * m.mean_emissive) * (m.two_sided ? real(2) : real(1));
+}
+
+/// The radiance of a point of an emissive surface.
+template <class Set>
+PT_HD vec3 emission_at(texture_view const& textures, material const& m, vec2 uv) {
+  if constexpr (Set::template has<effects::textures>) {
+    if (m.emissive_texture != no_texture)
+      return m.emission * vec3(sample_texture(textures, m.emissive_texture, uv));
+  }
+  return m.emission;
 }
 
 struct light_sample {
@@ -113,8 +125,9 @@ PT_HD inline light_sample sample_punctual(punctual_light const& light, vec3 p, r
 }
 
 /// A direction from `p` to a point of an emissive triangle.
-PT_HD inline light_sample sample_emitter(light_view const& lights, triangle const& t,
-                                         material const& m, vec3 p, vec2 place) {
+template <class Set>
+PT_HD light_sample sample_emitter(light_view const& lights, triangle const& t, material const& m,
+                                  vec3 p, vec2 place) {
   real const root = std::sqrt(place.x);
   real const b1 = root * (1 - place.y), b2 = root * place.y;
   vec3 const e1 = t.position[1] - t.position[0], e2 = t.position[2] - t.position[0];
@@ -132,7 +145,8 @@ PT_HD inline light_sample sample_emitter(light_view const& lights, triangle cons
   }
   if (!(cos_light > 0)) return s;
   s.clearance = normal * (clearance_of(t) + 4 * epsilon * s.distance);
-  s.radiance = m.emission;
+  vec2 const uv = (1 - b1 - b2) * t.uv[0] + b1 * t.uv[1] + b2 * t.uv[2];
+  s.radiance = emission_at<Set>(lights.textures, m, uv);
   s.pdf = light_pdf(lights, m, d2, cos_light);
   return s;
 }
@@ -196,7 +210,7 @@ PT_HD light_sample sample_light(light_view const& lights, vec3 p, light_draws co
     }
   }
   loaded_triangle<Set> t = load_triangle<Set>(lights.triangles, lights.motion, entry.index, u.time);
-  light_sample s = sample_emitter(lights, t, lights.materials[t.material], p, u.place);
+  light_sample s = sample_emitter<Set>(lights, t, lights.materials[t.material], p, u.place);
   s.pdf *= area_ratio<Set>(lights.triangles, lights.motion, entry.index, t);
   return s;
 }

@@ -23,7 +23,7 @@ struct basic_material {
   real transmission = 0;
   real specular = 1;  ///< KHR_materials_specular
   vec3 specular_color{1};
-  vec3 emission{0};        ///< radiance: emissiveFactor * emissiveStrength
+  vec3 emission{0};        ///< radiance: emissiveFactor * emissiveStrength; a texture scales it
   bool two_sided = false;  ///< emits from both sides; every surface is visible from both
   vec3 second_color{0};    ///< procedural shaders: the vein or the dark ring
   real pattern_scale = 1;  ///< procedural shaders: cycles per unit of world space length

@@ -66,8 +66,9 @@ struct shading_point {
 };
 
 /// The light from a hit emitter, weighted against the light sample at the last surface.
-PT_HD inline void add_emission(basic_batch const& batch, scene_view const& scene, std::uint32_t i,
-                               surface const& s, real area_ratio) {
+template <class Set>
+PT_HD void add_emission(batch_view<Set> const& batch, scene_view const& scene, std::uint32_t i,
+                        surface const& s, real area_ratio) {
   material const& m = scene.materials[s.material];
   if (!s.front && !m.two_sided) return;
   real weight = 1;
@@ -77,7 +78,7 @@ PT_HD inline void add_emission(basic_batch const& batch, scene_view const& scene
     real const pdf = light_pdf(scene.lights, m, glm::dot(d, d), cos_light) * area_ratio;
     weight = weight_of_bsdf(scene.lights.how, batch.pdf[i], pdf);
   }
-  batch.radiance[i] += batch.throughput[i] * m.emission * weight;
+  batch.radiance[i] += batch.throughput[i] * emission_at<Set>(scene.textures, m, s.uv) * weight;
 }
 
 /// The random numbers of the light sample of a bounce.
@@ -157,9 +158,11 @@ struct surface_shader {
     loaded_triangle<Set> t = load_triangle<Set>(scene.triangles, scene.motion, batch.primitive[i],
                                                 time_of<Set>(batch, i));
     surface const s = load_surface<Set>(scene, t, batch.barycentric[i], batch.direction[i]);
-    if constexpr (std::is_same_v<Effect, effects::emitters>) {
-      real const ratio = area_ratio<Set>(scene.triangles, scene.motion, batch.primitive[i], t);
-      add_emission(batch, scene, i, s, ratio);
+    if constexpr (Set::template has<effects::emitters>) {
+      if (max_component(scene.materials[s.material].emission) > 0) {
+        real const ratio = area_ratio<Set>(scene.triangles, scene.motion, batch.primitive[i], t);
+        add_emission<Set>(batch, scene, i, s, ratio);
+      }
     }
     if (batch.bounce + 1 >= batch.max_depth) {
       batch.throughput[i] = vec3{0};
