@@ -66,18 +66,22 @@ struct medium {
   }
 
   /// Samples the distance to the next particle, at most `surface`. Returns whether the path meets a
-  /// particle before the surface. The distance is sampled for one channel at random, and the
-  /// throughput compensates for that (one-sample balance heuristic, Veach 1997).
+  /// particle before the surface. The distance is sampled for one channel, chosen by its
+  /// throughput, which compensates for that (one-sample balance heuristic, Veach 1997). Where
+  /// nothing is absorbed, throughput is the density of the whole path in each channel over the mean
+  /// of these (Wilkie et al. 2014): their sum stays, and none can grow without bound.
   template <class Batch, class View>
   PT_HD static bool scatters(Batch const& batch, View const& m, std::uint32_t i, real surface) {
     vec2 const u = batch.random(i).pair(path_draw::free_path + batch.bounce);
-    int const channel = glm::min(static_cast<int>(u.x * 3), 2);
+    vec3 const throughput = batch.throughput[i];
+    vec3 const share = throughput / (throughput.x + throughput.y + throughput.z);
+    int const channel = u.x < share.x ? 0 : u.x < share.x + share.y || share.z == 0 ? 1 : 2;
     real const coefficient = m.extinction[channel];
     real const distance = coefficient > 0 ? -std::log(1 - u.y) / coefficient : endless;
     bool const inside = coefficient > 0 && distance < surface;
     vec3 const left = m.transmittance(glm::min(inside ? distance : surface, endless));
     vec3 const density = inside ? m.extinction * left : left;
-    real const mean = (density.x + density.y + density.z) / 3;
+    real const mean = glm::dot(share, density);
     vec3 const carried = inside ? m.scattering * left : left;
     batch.throughput[i] *= mean > 0 ? carried / mean : vec3{0};
     if (inside) batch.origin[i] += distance * vec3(batch.direction[i]);

@@ -19,7 +19,7 @@ struct surface_shader<effects::medium, Set> {
     real survival = 1;
     random_stream const random = batch.random(i);
     if (batch.bounce + 1 >= batch.roulette_from) {
-      survival = glm::min(real(0.95), max_component(throughput));
+      survival = survival_of(throughput);
       if (random.pair(pair_of(draw::lobe_and_roulette, batch.bounce)).y >= survival) return;
     }
     vec2 const u = random.pair(pair_of(draw::direction, batch.bounce));

@@ -125,6 +125,11 @@ PT_HD void sample_lights(basic_batch const& batch, scene_view const& scene, std:
   batch.shadow_light[i] = light;
 }
 
+/// The probability with which Russian roulette lets a path go on: 1 where no light is lost.
+PT_HD inline real survival_of(vec3 throughput) {
+  return glm::min(real(1), max_component(throughput));
+}
+
 /// Sets the next ray of a path, or ends it.
 template <class Bsdf>
 PT_HD void extend_path(basic_batch const& batch, std::uint32_t i, surface const& s,
@@ -138,7 +143,7 @@ PT_HD void extend_path(basic_batch const& batch, std::uint32_t i, surface const&
   batch.throughput[i] = vec3{0};
   if (!s.consistent(b.wi, wi)) return;
   if (batch.bounce + 1 >= batch.roulette_from) {
-    real const survival = glm::min(real(0.95), max_component(throughput));
+    real const survival = survival_of(throughput);
     if (v.y >= survival) return;
     throughput /= survival;
   }
