@@ -50,6 +50,7 @@ struct material_point {
 
   explicit material_point(path_tracer::material const& m)
       : material(m), color(m.base_color), scene{path_tracer::tables()} {}
+  PT_HD real eta() const { return material.ior; }
   PT_HD path_tracer::plastic_parameters plastic_parameters(vec3 c) const {
     return {c,
             material.metallic,

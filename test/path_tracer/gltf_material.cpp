@@ -113,6 +113,17 @@ TEST_CASE("an emissive texture is loaded, with its mean") {
   CHECK(load_material("{}").mean_emissive == vec3(1));
 }
 
+TEST_CASE("specular of glass is one warning") {
+  gltf_fixture f;
+  f.at("/materials/0") =
+      json::parse(R"({"pbrMetallicRoughness": {"metallicFactor": 0.5}, "extensions": {
+    "KHR_materials_transmission": {"transmissionFactor": 1},
+    "KHR_materials_specular": {"specularFactor": 0.5}}})");
+  scene const s = load(f);
+  CHECK(s.warnings.size() == 1);
+  CHECK(warns(s, "KHR_materials_specular of glass (material 0) is left out"));
+}
+
 TEST_CASE("a primitive without a material has the default one") {
   gltf_fixture f;
   f.at("/meshes/0/primitives/0").erase("material");

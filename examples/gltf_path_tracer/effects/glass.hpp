@@ -12,6 +12,15 @@ bool is_glass(Material const& m) {
   return m.transmission > 0 && m.metallic < metal_from;
 }
 
+/// The share of the glass among the facets of a material. What is not metal transmits that much of
+/// its light; `rest` becomes what is beside the glass.
+template <class Material>
+PT_HD real share_of_glass(Material const& m, plastic_parameters& rest) {
+  real const share = m.transmission * (1 - rest.metallic);
+  rest.metallic = share < 1 ? glm::min(rest.metallic / (1 - share), real(1)) : real(0);
+  return share;
+}
+
 /// A perfectly smooth dielectric interface. Below this roughness, a GGX lobe (alpha < 0.0009) is
 /// narrower than a pixel.
 struct smooth_glass {
@@ -28,7 +37,9 @@ struct smooth_glass {
   }
   template <class Point>
   PT_HD static bsdf_mix<bsdf_smooth_glass, bsdf_plastic> bsdf(Point const& p) {
-    return {{p.color, p.eta()}, p.plastic(p.color), p.material.transmission};
+    auto rest = p.plastic_parameters(p.color);
+    real const share = share_of_glass(p.material, rest);
+    return {{p.color, p.eta()}, {rest, p.scene.tables}, share};
   }
 };
 
@@ -42,10 +53,9 @@ struct rough_glass {
   }
   template <class Point>
   PT_HD static bsdf_mix<bsdf_rough_glass, bsdf_plastic> bsdf(Point const& p) {
-    auto const parameters = p.plastic_parameters(p.color);
-    return {{p.color, p.eta(), {alpha_of(parameters.roughness)}},
-            {parameters, p.scene.tables},
-            p.material.transmission};
+    auto rest = p.plastic_parameters(p.color);
+    real const share = share_of_glass(p.material, rest);
+    return {{p.color, p.eta(), {alpha_of(rest.roughness)}}, {rest, p.scene.tables}, share};
   }
 };
 

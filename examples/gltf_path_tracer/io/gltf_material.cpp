@@ -85,6 +85,10 @@ class material_reader {
     if (effects::is_glass(m) && m.kind != shader_of<effects::smooth_glass> &&
         m.kind != shader_of<effects::rough_glass>)
       hidden("transmission");
+    bool const glass =
+        m.kind == shader_of<effects::smooth_glass> || m.kind == shader_of<effects::rough_glass>;
+    if (glass && (m.specular != 1 || m.specular_color != vec3(1)))
+      document_.left_out.add("KHR_materials_specular of glass", where_);
     for_each_effect(all_effects{}, [&](auto effect) {
       using type = decltype(effect);
       if constexpr (path_tracer::detail::has_shader<type> && has_material_properties<type>)

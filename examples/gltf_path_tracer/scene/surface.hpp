@@ -80,6 +80,17 @@ PT_HD inline vec3 face_viewer(vec3 n, vec3 wo) {
   return cos_o > real(1e-3) ? n : glm::normalize(n + (real(1e-3) - cos_o) * wo);
 }
 
+/// Bends `n` as little as needed for a mirror to turn the viewer's direction to the side of the
+/// geometric normal on which the viewer is: else a mirror would be black at its rim.
+PT_HD inline vec3 reflect_above(vec3 n, vec3 geometric, vec3 wo) {
+  // Clear of it: the narrowest lobe, of alpha 0.002, has tails.
+  real const least = glm::min(real(0.05), real(0.9) * glm::dot(wo, geometric));
+  vec3 const reflected = 2 * glm::dot(n, wo) * n - wo;
+  real const above = glm::dot(reflected, geometric);
+  if (!(above < least)) return n;
+  return glm::normalize(wo + glm::normalize(reflected + (least - above) * geometric));
+}
+
 /// The derivatives of the position on a triangle by the texture coordinates u and v, up to a
 /// positive factor; 0 if these are degenerate.
 struct texture_axes {
@@ -128,7 +139,12 @@ PT_HD surface load_surface(scene_view const& scene, loaded_triangle<Set> t, vec2
     s.geometric = -s.geometric;
     n = -n;
   }
-  set_frame(s, face_viewer(n, -direction), t.position[1] - t.position[0]);
+  n = face_viewer(n, -direction);
+  shader const kind = scene.materials[t.material].kind;
+  bool const matte = kind == shader_of<effects::matte> || kind == shader_of<effects::emitters> ||
+                     kind == shader_of<effects::marble>;
+  if (!matte) n = face_viewer(reflect_above(n, s.geometric, -direction), -direction);
+  set_frame(s, n, t.position[1] - t.position[0]);
   s.wo = s.to_local(-direction);
   return s;
 }
