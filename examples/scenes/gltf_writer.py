@@ -83,6 +83,8 @@ class Scene:
             material["emissiveFactor"] = [e / strength for e in emission]
             extensions["emissive_strength"] = {"emissiveStrength": strength}
             extensions.setdefault("specular", {"specularFactor": 0.0})  # a lamp is matte
+        if "transmission" in extensions:
+            extensions.setdefault("volume", {"thicknessFactor": 1.0})  # a body, not a pane
         if two_sided:
             material["doubleSided"] = True
         if extensions:

@@ -85,6 +85,7 @@ inline void for_each_bsdf(Function const& f) {
     f("half metal", plastic(r, vec3{1, 0.5f, 0.2f}, 0.5f, 0.6f));
     f("glass", glass(r, 1.5f));
     f("glass from inside", glass(r, 1 / 1.5f));
+    f("pane", bsdf_rough_glass{vec3{1, 0.9f, 0.8f}, 1.5f, {alpha_of(r)}, true});
     f("clearcoat", coated(r, plastic(0.5f, vec3{1, 0.5f, 0.2f}, 0.3f)));
     f("sheen", velvet(r, plastic(0.8f, vec3{1, 0.5f, 0.2f})));
     f("brushed metal", brushed(r, 0.9f, vec3{1, 0.5f, 0.2f}, 1));

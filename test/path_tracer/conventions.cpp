@@ -45,10 +45,10 @@ struct one_path {
   vec3 origin{0}, shadow_origin{0}, shadow_vector{0};
   stored_direction direction = vec3{0, 0, -1};
   stored_color throughput = vec3{1}, radiance = vec3{0}, shadow_light = vec3{0};
-  real pdf = 0;
+  real pdf = 0, passed = 0;
 
-  template <class Batch>
-  void put_into(Batch& b, std::uint64_t seed) {
+  void put_into(batch_view<every_effect>& b, std::uint64_t seed) {
+    static_cast<path_array<effects::smooth_glass, every_effect>&>(b).states = &passed;
     b.origin = &origin;
     b.shadow_origin = &shadow_origin;
     b.shadow_vector = &shadow_vector;
@@ -125,7 +125,7 @@ TEST_CASE("a path that survives roulette has the weight of those that did not", 
     one_hit hit;
     surface const s = hit.seen();
     one_path path;
-    basic_batch batch{};
+    batch_view<every_effect> batch{};
     path.put_into(batch, seed);
     extend_path(batch, 0, s, bsdf_matte{color});
     vec3 const left = path.throughput;

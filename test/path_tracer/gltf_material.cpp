@@ -113,6 +113,15 @@ TEST_CASE("an emissive texture is loaded, with its mean") {
   CHECK(load_material("{}").mean_emissive == vec3(1));
 }
 
+TEST_CASE("glass without a volume is thin") {
+  std::string const glass = R"({"extensions": {
+    "KHR_materials_transmission": {"transmissionFactor": 1},
+    "KHR_materials_volume": {"thicknessFactor": )";
+  CHECK(load_material((glass + "0}}}").c_str()).thin);
+  CHECK_FALSE(load_material((glass + "0.5}}}").c_str()).thin);
+  CHECK(load_material("{}").thin);
+}
+
 TEST_CASE("specular of glass is one warning") {
   gltf_fixture f;
   f.at("/materials/0") =

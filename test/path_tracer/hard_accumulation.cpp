@@ -15,7 +15,7 @@ namespace {
 /// A batch of one path that the host runs shader by shader.
 struct lone_path {
   vec3 vectors[7] = {};
-  float pdf = 0, wavelength = 0;
+  float pdf = 0, wavelength = 0, passed = 0;
   std::uint32_t primitive = 0;
   vec2 barycentric{0};
   std::uint8_t id = finished;
@@ -36,6 +36,7 @@ struct lone_path {
     batch.pixels = 1;
     batch.max_depth = batch.roulette_from = 1u << 30;
     static_cast<path_array<effects::dispersion, every_effect>&>(batch).states = &wavelength;
+    static_cast<path_array<effects::smooth_glass, every_effect>&>(batch).states = &passed;
   }
 };
 

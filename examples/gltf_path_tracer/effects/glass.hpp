@@ -26,6 +26,7 @@ PT_HD real share_of_glass(Material const& m, plastic_parameters& rest) {
 struct smooth_glass {
   static constexpr char const* name = "smooth-glass";
   static constexpr real below = real(0.03);
+  using path_state = real;  ///< the length of a path from its last scattering to its last pane
 
   template <class Material>
   static bool fits(Material const& m) {
@@ -39,7 +40,15 @@ struct smooth_glass {
   PT_HD static bsdf_mix<bsdf_smooth_glass, bsdf_plastic> bsdf(Point const& p) {
     auto rest = p.plastic_parameters(p.color);
     real const share = share_of_glass(p.material, rest);
-    return {{p.color, p.eta()}, {rest, p.scene.tables}, share};
+    return {{p.color, p.eta(), p.material.thin}, {rest, p.scene.tables}, share};
+  }
+  /// The share of light that goes straight through a pane.
+  template <class Point>
+  PT_HD static vec3 straight(Point const& p) {
+    auto rest = p.plastic_parameters(p.color);
+    real cos_t;
+    real const f = fresnel_dielectric(p.at.wo.z, p.eta(), cos_t);
+    return share_of_glass(p.material, rest) * (1 - f) * p.color;
   }
 };
 
@@ -55,7 +64,9 @@ struct rough_glass {
   PT_HD static bsdf_mix<bsdf_rough_glass, bsdf_plastic> bsdf(Point const& p) {
     auto rest = p.plastic_parameters(p.color);
     real const share = share_of_glass(p.material, rest);
-    return {{p.color, p.eta(), {alpha_of(rest.roughness)}}, {rest, p.scene.tables}, share};
+    return {{p.color, p.eta(), {alpha_of(rest.roughness)}, p.material.thin},
+            {rest, p.scene.tables},
+            share};
   }
 };
 

@@ -38,6 +38,7 @@ class material_reader {
     m.emissive_texture = add_texture(from, "/emissiveTexture", true);
     if (m.emissive_texture != no_texture) m.mean_emissive = mean_of(m.emissive_texture);
     read_parts(from, m);
+    m.thin = m.thickness == 0;
     choose(m);
     if (value_at(from, "/alphaMode", std::string("OPAQUE")) != "OPAQUE")
       document_.left_out.add("alphaMode " + from["alphaMode"].get<std::string>(), where_);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/host_scene.hpp"
 
+#include <algorithm>
+
 namespace path_tracer {
 namespace {
 
@@ -36,7 +38,10 @@ scene_view host_scene::view() const {
            source.medium_anisotropy},
           source.motion.empty() ? nullptr : source.motion.data(),
           octaves,
-          source.origin};
+          source.origin,
+          std::any_of(source.materials.begin(), source.materials.end(), [](material const& m) {
+            return m.thin && m.kind == shader_of<effects::smooth_glass>;
+          })};
 }
 
 }  // namespace path_tracer

@@ -21,6 +21,7 @@ struct basic_material {
   real roughness = 1;  ///< perceptual; alpha = roughness^2
   real ior = real(1.5);
   real transmission = 0;
+  bool thin = false;  ///< glass without an inside: a pane, which does not bend light
   real specular = 1;  ///< KHR_materials_specular
   vec3 specular_color{1};
   vec3 emission{0};        ///< radiance: emissiveFactor * emissiveStrength; a texture scales it

@@ -25,6 +25,7 @@ struct scene_view {
   triangle_motion const* motion;  ///< null: nothing moves
   int octaves;                    ///< of procedural textures, at most
   vec3 origin;                    ///< of coordinates, in those of the file
+  bool has_panes;                 ///< thin, smooth glass, which shadow rays pass
 };
 
 PT_HD inline vec3 geometric_normal(triangle const& t) {

@@ -12,8 +12,8 @@ namespace path_tracer {
 // Every bsdf_* is a small value with two members, in the frame of microfacet.hpp, wo.z > 0:
 // bsdf_value value(vec3 wo, vec3 wi) const; what a given direction carries bsdf_sample sample(vec3
 // wo, vec3 u) const; a direction, from three numbers in [0, 1) They conserve energy, and are
-// reciprocal. Throughput is radiance divided by the squared refractive index, which an interface
-// does not change (Veach 1997, section 5.2): no factor eta^2 for glass.
+// reciprocal, but for clear coats. Throughput is radiance divided by the squared refractive index,
+// which an interface does not change (Veach 1997, section 5.2): no factor eta^2 for glass.
 
 struct bsdf_value {
   vec3 f_cos{0};  ///< f(wo, wi) |cos(theta_i)|
@@ -24,7 +24,8 @@ struct bsdf_sample {
   vec3 wi{0, 0, 1};
   vec3 weight{0};  ///< f |cos(theta_i)| / pdf; 0: the path ends
   real pdf = 0;
-  bool delta = false;  ///< the only direction of a mirror: no pdf, value() does not know it
+  bool delta = false;     ///< the only direction of a mirror: no pdf, value() does not know it
+  bool straight = false;  ///< and that of a smooth pane, which shadow rays take as well
 };
 
 /// The sample of `b` for a direction. Its weight includes all lobes that reach that direction.

@@ -14,24 +14,29 @@ PT_HD inline vec3 refract_direction(vec3 wo, vec3 m, real eta, real cos_t) {
 struct bsdf_smooth_glass {
   vec3 color;  ///< tints what goes through, once per interface
   real eta;
+  bool thin = false;
 
   PT_HD bsdf_value value(vec3, vec3) const { return {}; }
   PT_HD bsdf_sample sample(vec3 wo, vec3 u) const {
     real cos_t;
     real const f = fresnel_dielectric(wo.z, eta, cos_t);
     if (u.z < f) return {{-wo.x, -wo.y, wo.z}, vec3{1}, f, true};
+    if (thin) return {-wo, color, 1 - f, true, true};
     return {refract_direction(wo, {0, 0, 1}, eta, cos_t), color, 1 - f, true};
   }
 };
 
-/// A rough dielectric interface (Walter et al. 2007).
+/// A rough dielectric interface (Walter et al. 2007). A thin one transmits the mirror image of what
+/// it reflects, as KHR_materials_transmission has it.
 struct bsdf_rough_glass {
   vec3 color;
   real eta;  ///< not 1: there would be no facet normal to a pair of directions
   ggx distribution;
+  bool thin = false;
 
   PT_HD bsdf_value value(vec3 wo, vec3 wi) const {
     bool const reflects = wi.z > 0;
+    if (thin && wi.z != 0) return thin_value(wo, {wi.x, wi.y, std::fabs(wi.z)}, reflects);
     vec3 m = glm::normalize(reflects ? wo + wi : wo + eta * wi);
     if (m.z < 0) m = -m;
     real const o_m = glm::dot(wo, m), i_m = glm::dot(wi, m);
@@ -50,9 +55,23 @@ struct bsdf_rough_glass {
     real const o_m = glm::dot(wo, m);
     real cos_t;
     bool const reflects = u.z < fresnel_dielectric(o_m, eta, cos_t);
+    if (thin) {
+      vec3 const up = 2 * o_m * m - wo;
+      if (up.z <= 0) return {};
+      return sample_towards(*this, wo, {up.x, up.y, reflects ? up.z : -up.z});
+    }
     vec3 const wi = reflects ? 2 * o_m * m - wo : refract_direction(wo, m, eta, cos_t);
     if ((wi.z > 0) != reflects) return {};
     return sample_towards(*this, wo, wi);
+  }
+
+ private:
+  PT_HD bsdf_value thin_value(vec3 wo, vec3 up, bool reflects) const {
+    vec3 const m = glm::normalize(wo + up);
+    real cos_t;
+    real const f = fresnel_dielectric(glm::dot(wo, m), eta, cos_t);
+    real const d = distribution.d(m) / (4 * wo.z) * (reflects ? f : 1 - f);
+    return {(reflects ? vec3{1} : color) * (d * distribution.g2(wo, up)), d * distribution.g1(wo)};
   }
 };
 

@@ -29,6 +29,8 @@ struct surface_shader<effects::medium, Set> {
     batch.pdf[i] = phase(scene.medium.anisotropy, cosine);
     batch.direction[i] = glm::normalize(frame.to_world(polar(cosine, 2 * pi * u.y)));
     batch.throughput[i] = throughput / survival;
+    if constexpr (path_array<effects::smooth_glass, Set>::exists)
+      batch.template state<effects::smooth_glass>(i) = 0;
   }
 
  private:

@@ -61,7 +61,7 @@ struct shading_point {
   /// The refractive index of the far side over that of the near side.
   PT_HD real eta() const {
     real const inside = ior > 0 ? glm::max(ior, real(1.001)) : real(0);
-    return at.front || inside == 0 ? inside : 1 / inside;
+    return at.front || material.thin || inside == 0 ? inside : 1 / inside;
   }
 };
 
@@ -75,7 +75,12 @@ PT_HD void add_emission(batch_view<Set> const& batch, scene_view const& scene, s
   if (batch.pdf[i] > 0) {
     vec3 const d = s.position - batch.origin[i];
     real const cos_light = -glm::dot(vec3(batch.direction[i]), s.geometric);
-    real const pdf = light_pdf(scene.lights, m, glm::dot(d, d), cos_light) * area_ratio;
+    real distance2 = glm::dot(d, d);
+    if constexpr (path_array<effects::smooth_glass, Set>::exists) {
+      real const passed = batch.template state<effects::smooth_glass>(i);
+      if (passed > 0) distance2 = (std::sqrt(distance2) + passed) * (std::sqrt(distance2) + passed);
+    }
+    real const pdf = light_pdf(scene.lights, m, distance2, cos_light) * area_ratio;
     weight = weight_of_bsdf(scene.lights.how, batch.pdf[i], pdf);
   }
   batch.radiance[i] += batch.throughput[i] * emission_at<Set>(scene.textures, m, s.uv) * weight;
@@ -131,8 +136,8 @@ PT_HD inline real survival_of(vec3 throughput) {
 }
 
 /// Sets the next ray of a path, or ends it.
-template <class Bsdf>
-PT_HD void extend_path(basic_batch const& batch, std::uint32_t i, surface const& s,
+template <class Set, class Bsdf>
+PT_HD void extend_path(batch_view<Set> const& batch, std::uint32_t i, surface const& s,
                        Bsdf const& bsdf) {
   random_stream const random = batch.random(i);
   vec2 const u = random.pair(pair_of(draw::direction, batch.bounce));
@@ -148,9 +153,14 @@ PT_HD void extend_path(basic_batch const& batch, std::uint32_t i, surface const&
     throughput /= survival;
   }
   batch.throughput[i] = throughput;
+  if constexpr (path_array<effects::smooth_glass, Set>::exists) {
+    real& passed = batch.template state<effects::smooth_glass>(i);
+    passed = b.straight ? passed + glm::length(s.position - batch.origin[i]) : real(0);
+  }
   batch.origin[i] = s.start_towards(wi);
   batch.direction[i] = glm::normalize(wi);
-  batch.pdf[i] = b.delta ? real(0) : b.pdf;
+  // Through a pane, light samples of the last scattering compete still.
+  if (!b.straight) batch.pdf[i] = b.delta ? real(0) : b.pdf;
 }
 
 /// The shader of an effect: emission, one light sample, one BSDF sample.
@@ -178,7 +188,7 @@ struct surface_shader {
       for_each_effect(all_effects{}, [&](auto effect) {
         using type = decltype(effect);
         if constexpr (Set::template has<type> && detail::changes_glass<type>)
-          type::at_glass(batch, i, point);
+          if (!point.material.thin) type::at_glass(batch, i, point);
       });
     }
     auto const bsdf = Effect::bsdf(point);

@@ -5,6 +5,7 @@
 
 #include "scene/surface.hpp"
 #include "shading/path.hpp"
+#include "shading/shaders.hpp"
 #include "shading/sums.hpp"
 
 namespace path_tracer {
@@ -89,7 +90,7 @@ struct find_hits {
   PT_HD bool inside_glass(request_index i, hit const& h, shader kind, real time) const {
     bool const glass =
         kind == shader_of<effects::smooth_glass> || kind == shader_of<effects::rough_glass>;
-    if (!glass) return false;
+    if (!glass || scene.materials[scene.triangles[h.primitive].material].thin) return false;
     loaded_triangle<Set> t = load_triangle<Set>(scene.triangles, scene.motion, h.primitive, time);
     return glm::dot(geometric_normal(t), vec3(batch.direction[i])) > 0;
   }
@@ -107,7 +108,29 @@ struct trace_shadows {
     real const time = time_of<Set>(batch, i);
     if (find_hit<Set, true>(scene.bvh, scene.motion, r, time).primitive == no_primitive)
       batch.radiance[i] += batch.shadow_light[i];
+    else if constexpr (Set::template has<effects::smooth_glass>)
+      if (scene.has_panes) batch.radiance[i] += batch.shadow_light[i] * through_panes(r, time);
   }
+
+ private:
+  /// The share of light that passes all that a ray meets, if these are panes; else 0.
+  PT_HD vec3 through_panes(ray r, real time) const {
+    vec3 const end = r.origin + r.direction;
+    vec3 share{1};
+    for (int panes = 0; panes < most_panes; ++panes) {
+      hit const h = find_hit<Set, false>(scene.bvh, scene.motion, r, time);
+      if (h.primitive == no_primitive) return share;
+      loaded_triangle<Set> t = load_triangle<Set>(scene.triangles, scene.motion, h.primitive, time);
+      material const& m = scene.materials[t.material];
+      if (!m.thin || m.kind != shader_of<effects::smooth_glass>) return vec3{0};
+      surface const s = load_surface<Set>(scene, t, h.barycentric, glm::normalize(r.direction));
+      share *= effects::smooth_glass::straight(shading_point<Set>(scene, s, t));
+      r.origin = s.start_towards(r.direction);
+      r.direction = end - r.origin;
+    }
+    return vec3{0};
+  }
+  static constexpr int most_panes = 64;
 };
 
 /// How many paths of a batch go on after a bounce, and how many had a shadow ray there.
