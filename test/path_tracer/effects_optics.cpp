@@ -204,7 +204,7 @@ TEST_CASE("limits of a thin film", "[effects]") {
     glm::dvec3 sum(0), weights(0);
     for (int k = 0; k <= 3000; ++k) {
       float const wavelength = 400 + 0.1f * static_cast<float>(k);
-      glm::dvec3 const color(color_of(wavelength));
+      glm::dvec3 const color(signed_color_of(wavelength));
       sum += color * film_reflectance_at(double{cosine}, double{wavelength}, 1.4, 500, 1.5);
       weights += color;
     }
@@ -213,6 +213,13 @@ TEST_CASE("limits of a thin film", "[effects]") {
       CHECK_THAT(double{oil(cosine)[c]}, WithinAbs(sum[c] / weights[c], 1e-3));
     }
   }
+}
+
+TEST_CASE("the colour of a film is clipped as a whole, not at each wavelength", "[effects]") {
+  // A film that is green and blue at some wavelengths takes red light away from the sum: by the
+  // colour matching functions, 0.4325 is left of red at 350 nm, and 0.33 with clipped wavelengths.
+  vec3 const f0{0.36f};  // of the index 4
+  CHECK_THAT(reflectance_of_film(1.8f, 350, f0)(1).x, WithinAbs(0.4325, 2e-3));
 }
 
 TEST_CASE("a brushed lobe is as wide as its two roughnesses, along its axes", "[effects]") {

@@ -52,13 +52,13 @@ film_reflectance reflectance_of_film(double film, double thickness, vec3 f0) {
     glm::dvec3 sum(0), weights(0);
     for (int w = 0; w < wavelengths; ++w) {
       real const wavelength = sample_wavelength((static_cast<real>(w) + real(0.5)) / wavelengths);
-      glm::dvec3 const color(color_of(wavelength));
+      glm::dvec3 const color(signed_color_of(wavelength));  // the sum alone is clipped
       for (int c = 0; c < 3; ++c)
         sum[c] +=
             color[c] * film_reflectance_at(cos_theta, double{wavelength}, film, thickness, base[c]);
       weights += color;
     }
-    result.values[k] = vec3(sum / weights);
+    result.values[k] = vec3(glm::clamp(sum / weights, glm::dvec3(0), glm::dvec3(1)));
   }
   return result;
 }
