@@ -97,10 +97,10 @@ class sheared_ray {
       }
       glm::dvec3 const n = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
       double const slope = n.x * double{shear_.x} + n.y * double{shear_.y} + n.z;
-      double const exact = glm::dot(n, corner[0]) / slope;
+      if (slope == 0) return about;
       double const low = glm::min(corner[0].z, glm::min(corner[1].z, corner[2].z));
       double const high = glm::max(corner[0].z, glm::max(corner[1].z, corner[2].z));
-      return exact == exact ? static_cast<real>(glm::clamp(exact, low, high)) : about;
+      return static_cast<real>(glm::clamp(glm::dot(n, corner[0]) / slope, low, high));
     } else {
       return about;
     }
