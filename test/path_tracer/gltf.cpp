@@ -1,23 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Geometry, transforms, cameras and lights as the loader leaves them.
-#include "io/gltf.hpp"
 
 #include <set>
 
 #include "catch.hpp"
-#include "path_tracer/fixture.hpp"
+#include "path_tracer/load.hpp"
 
 using namespace path_tracer;
 using namespace path_tracer_test;
 
 namespace {
-
-scene load(std::string const& bytes) {
-  temporary_folder const folder;
-  write_bytes(folder / "scene", bytes);
-  return load_gltf(folder / "scene");
-}
-scene load(gltf_fixture const& f) { return load(f.text()); }
 
 template <class Vector>
 bool near(Vector a, Vector b) {

@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "catch.hpp"
-#include "io/gltf.hpp"
-#include "path_tracer/fixture.hpp"
+#include "path_tracer/load.hpp"
 
 using namespace path_tracer;
 using namespace path_tracer_test;
-
-namespace {
-
-scene load(gltf_fixture const& f) {
-  temporary_folder const folder;
-  write_bytes(folder / "scene", f.text());
-  return load_gltf(folder / "scene");
-}
-
-}  // namespace
 
 TEST_CASE("a scene far away keeps its digits") {
   gltf_fixture f;

@@ -4,19 +4,12 @@
 #include <set>
 
 #include "catch.hpp"
-#include "io/gltf.hpp"
-#include "path_tracer/fixture.hpp"
+#include "path_tracer/load.hpp"
 
 using namespace path_tracer;
 using namespace path_tracer_test;
 
 namespace {
-
-scene load(gltf_fixture const& f) {
-  temporary_folder const folder;
-  write_bytes(folder / "scene", f.text());
-  return load_gltf(folder / "scene");
-}
 
 material load_material(char const* text) {
   gltf_fixture f;
