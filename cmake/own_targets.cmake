@@ -39,6 +39,18 @@ foreach(name IN ITEMS omp tbb)
     set(deferred_shade_has_${name} FALSE)
   endif()
 endforeach()
+# deferred_shade_own_systems(<result> <prefix> <system>...): of CPP, OMP and TBB those that this machine has, each with
+# the prefix.
+function(deferred_shade_own_systems result prefix)
+  set(has "")
+  foreach(system IN LISTS ARGN)
+    string(TOLOWER "${system}" lower)
+    if(system STREQUAL "CPP" OR deferred_shade_has_${lower})
+      list(APPEND has ${prefix}${system})
+    endif()
+  endforeach()
+  set(${result} ${has} PARENT_SCOPE)
+endfunction()
 add_library(deferred_shade_runtimes INTERFACE)
 target_link_libraries(deferred_shade_runtimes INTERFACE
   $<$<BOOL:${deferred_shade_has_omp}>:OpenMP::OpenMP_CXX> $<$<BOOL:${deferred_shade_has_tbb}>:TBB::tbb>)
