@@ -12,8 +12,8 @@ namespace path_tracer {
 // Every bsdf_* is a small value with two members, in the frame of microfacet.hpp, wo.z > 0:
 // bsdf_value value(vec3 wo, vec3 wi) const; what a given direction carries bsdf_sample sample(vec3
 // wo, vec3 u) const; a direction, from three numbers in [0, 1) They conserve energy, and are
-// reciprocal, but for clear coats. Throughput is radiance divided by the squared refractive index,
-// which an interface does not change (Veach 1997, section 5.2): no factor eta^2 for glass.
+// reciprocal, except for clear coats. Throughput is radiance divided by the squared refractive
+// index, which an interface does not change (Veach 1997, section 5.2): no factor eta^2 for glass.
 
 struct bsdf_value {
   vec3 f_cos{0};  ///< f(wo, wi) |cos(theta_i)|
